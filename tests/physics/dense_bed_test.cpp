@@ -46,7 +46,7 @@ double growth(const Mixture& m) {
     const double of_added_mass = added_mass * (change - inertial);
     const double steady = (push + of_added_mass) / m.dt;
     const HalfKick kick(m.dt / n / 2, coefficients);
-    ForceArrays f;
+    GrainForces f;
     f.u_f = {u, 0, 0};
     f.acceleration = {(inertial + per_share * impulse) / m.dt, 0, 0};
     Vec3 velocity{w, 0, 0}, spin;

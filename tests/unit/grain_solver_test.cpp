@@ -192,7 +192,7 @@ TEST(GrainSolver, HeldGrainsBrakeTheirShareOfFluid) {
                            .inv_fluid_mass = 1 / share,
                            .beta = beta,
                            .added_mass = added});
-  ForceArrays f;
+  GrainForces f;
   f.u_f = u_f, f.acceleration = acceleration;
   Vec3 u, spin;
   const Vec3 expected = kick(f, u, spin);
