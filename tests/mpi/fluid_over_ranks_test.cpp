@@ -8,6 +8,7 @@
 
 #include "src/fluid/fluid_solver.hpp"
 #include "src/fluid/fluid_state.hpp"
+#include "src/fluid/local_correction.hpp"
 #include "src/fluid/pressure_solver.hpp"
 #include "src/initial/initial_flow.hpp"
 #include "src/initial/map_flow.hpp"
