@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from fake_runs import columns_of_the_page, fake
+from fake_runs import fake
 
 import barchan
 from barchan.figures.probes import means_along
@@ -38,9 +38,10 @@ def run(tmp_path):
         sign = 1.1 if step % 2 else 0.9
         rows += [[t, 1, n, 0.03, y, 0.02, 10 * y * sign, 0, 0, -y, 0.02, 0.0] for n, y in enumerate(HEIGHTS)]
         rows += [[t, 2, n, 0.015 * n, 0.01, 0.02 * n, 0.2, 0, 0, 1.0, 0.03, 0.0] for n in range(3)]
-    lines = [",".join(json.loads(columns_of_the_page())["probes.csv"])] + [",".join(f"{value:.9g}" for value in row) for row in rows]
+    header = json.loads((fake() / "columns.json").read_text())["probes.csv"]
+    lines = [",".join(header)] + [",".join(f"{value:.9g}" for value in row) for row in rows]
     (tmp_path / "probes.csv").write_text("\n".join(lines) + "\n")
-    (tmp_path / "columns.json").write_text(columns_of_the_page())
+    (tmp_path / "columns.json").write_text((fake() / "columns.json").read_text())
     return barchan.open(tmp_path)
 
 

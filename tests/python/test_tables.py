@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pandas
 import pytest
-from fake_runs import columns_of_the_page
+from fake_runs import fake
 
 import barchan
 
@@ -22,7 +22,7 @@ LINES = {
 def run(tmp_path):
     for name, text in LINES.items():
         (tmp_path / name).write_text(text)
-    (tmp_path / "columns.json").write_text(columns_of_the_page())
+    (tmp_path / "columns.json").write_text((fake() / "columns.json").read_text())
     (tmp_path / "config.toml").write_text("[case]\ntitle = \"made up\"\n")
     (tmp_path / "log.txt").write_text("step 1\n")
     for step in (1200, 8):

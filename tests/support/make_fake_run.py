@@ -13,6 +13,7 @@ forces.
 import argparse
 import json
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -206,6 +207,17 @@ def write_csv(path, header, columns):
     np.savetxt(path, np.stack(columns, axis=1), delimiter=",", fmt="%.9g", header=header, comments="")
 
 
+def columns_of_the_page():
+    """columns.json, from the tables of docs/files.md: a test of the program compares these with what it writes."""
+    columns = {}
+    page = Path(__file__).resolve().parents[2] / "docs/files.md"
+    for part in page.read_text().split("\n## ")[1:]:
+        rows = re.findall(r"^\| `(\w+)` \| ([^|]+) \| ([^|]+) \|$", part, re.M)
+        columns[part.split("\n")[0]] = {name: {"unit": unit.replace("-", "1"), "meaning": meaning}
+                                       for name, unit, meaning in rows}
+    return columns
+
+
 def write_tables(folder, cut, wider=1.0):
     random = np.random.default_rng(2)
     t = np.linspace(0, END, 400)
@@ -231,6 +243,7 @@ def write_tables(folder, cut, wider=1.0):
         lines.append(",".join(f"{value:.9g}" for value in row))
     text = "\n".join(lines) + "\n"
     (folder / "dune.csv").write_text(text[:-20] if cut else text)
+    (folder / "columns.json").write_text(json.dumps(columns_of_the_page()))
 
 
 def write_statistics(folder):
