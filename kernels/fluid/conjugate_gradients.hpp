@@ -37,14 +37,6 @@ struct FindMeanOfB {
   Real height;
   KOKKOS_FUNCTION void operator()(int) const { number[kMeanOfB] = number[kSumOfB] / height; }
 };
-/// What the relaxation added to the mean of p, if no direction was taken yet.
-struct FindSurplus {
-  Real* number;
-  Real height;
-  KOKKOS_FUNCTION void operator()(int) const {
-    number[kSurplus] = -(number[kSumOfP] / height) + number[kSumOfRelaxed] / height;
-  }
-};
 /// Sets the end of the iterations, before the first one.
 struct FindEnd {
   Real* number;
@@ -54,6 +46,16 @@ struct FindEnd {
     number[kEnough] = tolerance * tolerance * norm_of_b;
     number[kGoesOn] = number[kRR] > number[kEnough] ? 1 : 0;
     number[kDirections] = 0;
+  }
+};
+/// What the relaxation added to the mean of p, if no direction was taken yet.
+struct FindSurplus {
+  Real* number;
+  Real height;
+  FindEnd end;
+  KOKKOS_FUNCTION void operator()(int n) const {
+    number[kSurplus] = -(number[kSumOfP] / height) + number[kSumOfRelaxed] / height;
+    end(n);
   }
 };
 /// Decides whether another iteration is needed.

@@ -72,7 +72,9 @@ void ConjugateGradients::start(const FaceVector& c, Field& b, Field& p) {
   sum_each_cell("pressure: residual", numbers_, kRR, *near_, Residual{grid_, c, p, e_, r_});
   numbers_.combine(ranks, kSumOfP, 3, MPI_SUM);
   launch_scalar_kernel("pressure: mean of p",
-                       FindSurplus{numbers_.data(), grid_.height_of_all_columns()});
+                       FindSurplus{numbers_.data(),
+                                   grid_.height_of_all_columns(),
+                                   {numbers_.data(), config_.pressure_tolerance}});
 }
 
 /// d from z; before, p goes along the last one.
@@ -96,7 +98,6 @@ PressureReport ConjugateGradients::solve(const FaceVector& c, const Region& near
   if (relaxes_) local_.update(c, near, z_);
   start(c, b, p);
   local_.set_workspace(b);  // which is no longer needed
-  launch_scalar_kernel("pressure: end", FindEnd{numbers_.data(), config_.pressure_tolerance});
   const int most = config_.max_iterations - 1;
   const int ahead = std::min({directions_before_, ahead_, most});
   for (int n = 1; n <= ahead; ++n) iterate(c, p, n);

@@ -195,12 +195,16 @@ TEST(FluidPressure, IterationsForAHeap) {
   EXPECT_LE(iterations(Preconditioner::of<RelaxedFft>()), 6);
 }
 
-/// A hard solve, then one that starts from the first solution, so that more is launched ahead than
-/// is needed.
+/// A hard solve, then one with hardly any grains, so that more is launched ahead than is needed.
 TEST(FluidPressure, IterationsLaunchedAheadChangeNoBit) {
   const Mixture m = heap(test::stretched_grid({24, 12, 16}, {0.05, 0.025, 0.036}, 1e-3));
   const Region everywhere(m.grid);
   const Workspace workspace(m.grid, false);
+  FaceVector dilute = uniform_mobility(m.grid);
+  for_each_cell("test", m.grid, Axpby{0.02, m.c.x, 0.98, dilute.x});
+  for_each_cell("test", m.grid, Axpby{0.02, m.c.y, 0.98, dilute.y});
+  for_each_cell("test", m.grid, Axpby{0.02, m.c.z, 0.98, dilute.z});
+  Halo(m.grid).fill(dilute.x, dilute.y, dilute.z);
   const auto solve_twice = [&](int ahead) {
     const SolverConfig config{.pressure_tolerance = 1e-9};
     const auto solver = make_pressure_solver({.grid = m.grid,
@@ -213,12 +217,12 @@ TEST(FluidPressure, IterationsLaunchedAheadChangeNoBit) {
     std::vector<int> iterations;
     for (int n = 0; n < 2; ++n) {
       test::set_random(b, m.grid, 21);
-      iterations.push_back(solver->solve(m.c, everywhere, b, p).iterations);
+      iterations.push_back(solver->solve(n == 0 ? m.c : dilute, everywhere, b, p).iterations);
     }
     return std::pair(iterations, test::to_host(p));
   };
   const auto [count, waiting] = solve_twice(0);
-  EXPECT_GT(count[0], count[1] + 1);
+  EXPECT_GT(count[0], count[1]);
   for (const int ahead : {1, 4, 50}) {
     const auto [count_ahead, p] = solve_twice(ahead);
     EXPECT_EQ(count_ahead, count);
