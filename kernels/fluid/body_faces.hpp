@@ -14,7 +14,7 @@ KOKKOS_INLINE_FUNCTION Vec3 face_middle(const BasicGrid<Rows>& grid, int axis, i
           axis == 2 ? grid.z_face(k) : grid.z_centre(k)};
 }
 
-/// Whether a face is closed: its middle lies in a body or on its surface. Round-off, as part of a
+/// True if a face is closed: its middle lies in a body or on its surface. Round-off, as part of a
 /// cell, must not decide that: a body often ends just where cells do.
 template <class Solids, class Rows>
 KOKKOS_INLINE_FUNCTION bool is_closed_by(const Solids& bodies, const BasicGrid<Rows>& grid,
@@ -24,23 +24,23 @@ KOKKOS_INLINE_FUNCTION bool is_closed_by(const Solids& bodies, const BasicGrid<R
   return !(bodies.nearest(middle).surface.distance >= Real(1e-6) * size);
 }
 
-/// The distance from bodies at which a cell of row j holds water on any mesh [m].
+/// The distance from bodies at which a cell of row j holds fluid on any mesh [m].
 template <class Rows>
 KOKKOS_INLINE_FUNCTION Real far_from_bodies(const BasicGrid<Rows>& grid, int j) {
   return 2 * Kokkos::max(Kokkos::max(grid.dx, grid.dy(j)), grid.dz);
 }
 
-/// The share of the way from a, which is in the water, to b, which is not, that lies in the water.
+/// Share of the way from a, in the fluid, to b, which is not, that lies in the fluid.
 template <class Solids>
-KOKKOS_INLINE_FUNCTION Real share_in_water(const Solids& bodies, const Vec3& a, const Vec3& b) {
-  Real water = 0, solid = 1;
+KOKKOS_INLINE_FUNCTION Real share_in_fluid(const Solids& bodies, const Vec3& a, const Vec3& b) {
+  Real fluid = 0, solid = 1;
   if (bodies.nearest(b).surface.distance >= 0) return 1;
   for (int halved = 0; halved < 50; ++halved) {
-    const Real middle = (water + solid) / 2;
-    const bool is_water = bodies.nearest(fma(middle, b - a, a)).surface.distance > 0;
-    (is_water ? water : solid) = middle;
+    const Real middle = (fluid + solid) / 2;
+    const bool is_fluid = bodies.nearest(fma(middle, b - a, a)).surface.distance > 0;
+    (is_fluid ? fluid : solid) = middle;
   }
-  return (water + solid) / 2;
+  return (fluid + solid) / 2;
 }
 
 /// A wall at theta h from a velocity u, h the distance to the next one, which is closed. In the
@@ -122,7 +122,7 @@ struct ForcingAcross {
   }
 };
 
-/// Stops the water in bodies; adds up what it ran [m/s].
+/// Stops the fluid in bodies; adds up its speeds [m/s].
 struct StopInBodies {
   const BodyFace* faces;
   FaceRef u;
@@ -187,9 +187,9 @@ struct ForceAndTorque {
 };
 
 /// Force of a step's flow on a body, face by face. At a closed face it is what would have moved the
-/// water there,
+/// fluid there,
 ///   V (rho alpha u* / dt + rho f - grad p),
-/// at others the friction, rho alpha V k u. All of it is what the momentum of the water lacks.
+/// at others the friction, rho alpha V k u. All of it is what the momentum of the fluid lacks.
 struct LoadOnBody {
   GridRef grid;
   const BodyFace* faces;
@@ -234,8 +234,8 @@ struct LoadsOnMany {
   }
 };
 
-/// One step of finding the cells that water reaches through open faces. Returns 1 where it gets.
-struct SpreadWater {
+/// One step of finding the cells that fluid reaches through open faces. Returns 1 where it gets.
+struct SpreadFluid {
   ConstFaceRef open;      // 1 or 0, with ghosts
   ConstFieldRef reached;  // 1 or 0, with ghosts
   FieldRef after;

@@ -5,7 +5,7 @@
 
 namespace barchan {
 
-/// What the ghost row behind a wall holds.
+/// Content of the ghost row behind a wall.
 enum class GhostRule {
   as_it_is,  // whatever it holds
   same,      // the row inside: zero gradient on the wall
@@ -53,7 +53,7 @@ struct FillWalls {
   FieldWithWalls field;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int, int k) const { field.fill_walls(i, k); }
 };
-/// The same of some fields.
+/// Fills the ghost rows behind both walls of some fields.
 template <std::size_t n>
 struct FillWallsOf {
   Kokkos::Array<FieldWithWalls, n> fields;

@@ -26,12 +26,12 @@ enum GradientNumber : int {
   kEnough,   // <r, r> at which the iterations end
   kGoesOn,   // 1 until then, 0 after: iterations launched ahead change nothing more
   kStep,     // a, or 0 after the end: the next r is r - step A d
-  kPending,  // a and surplus of the last direction, which the next one applies to p; 0 after the
-  kPendingSurplus,  // end, as p then waits for AdvancePressure
+  kPending,  // a, with which the next direction advances p; 0 after the end, for AdvancePressure
+  kPendingSurplus,  // surplus, likewise
   kDirections,      // directions that were taken
   kGradientNumbers
 };
-/// From the sum of b.
+/// Mean of b from its sum.
 struct FindMeanOfB {
   Real* number;
   Real height;
@@ -48,7 +48,7 @@ struct FindEnd {
     number[kDirections] = 0;
   }
 };
-/// What the relaxation added to the mean of p, if no direction was taken yet.
+/// Sets the surplus that the relaxation added to the mean of p, and the end of the iterations.
 struct FindSurplus {
   Real* number;
   Real height;
@@ -101,7 +101,7 @@ struct NormAndMean {
     return {value * weighted, weighted, 0};
   }
 };
-/// The same of b, before it becomes b - E p; a copy of it.
+/// b -= E p, after a copy; adds up <b, b> and <b, 1> of before.
 struct SubtractObstruction {
   NormAndMean of_b;
   ConstFaceRef c;

@@ -1,4 +1,4 @@
-// What is added up over the flow for reports.
+// Sums over the flow for reports.
 #pragma once
 
 #include "kernels/fluid/stencil.hpp"
@@ -29,7 +29,7 @@ struct FlowRate {
   }
 };
 
-/// The same on z-faces.
+/// alpha w dy on z-faces [m^2/s].
 struct FlowRateAcross {
   GridRef grid;
   ConstFieldRef w, alpha;

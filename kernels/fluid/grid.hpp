@@ -53,7 +53,7 @@ struct BasicGrid : GridExtents {
     return static_cast<int>(Kokkos::floor(x * (1 / spacing)));
   }
 
-  /// The same as row_of(y), found from a row nearby.
+  /// Row of y, as row_of(y) has it, found from a row nearby.
   KOKKOS_INLINE_FUNCTION int row_near(Real y, int row) const {
     while (row > 0 && y < y_face(row)) --row;
     while (row < ny - 1 && y >= y_face(row + 1)) ++row;

@@ -53,7 +53,7 @@ struct PointStencil {
 
   KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const PeriodicBox& box, const Vec3& point)
       : PointStencil(g, box, point, g.row_of(point.y)) {}
-  /// Of a point in or near a row.
+  /// Stencil of a point in or near a row.
   KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const PeriodicBox& box, const Vec3& point,
                                       int row_nearby) {
     const Vec3 inside = box.wrap(point);
@@ -101,7 +101,7 @@ KOKKOS_INLINE_FUNCTION Vec3 interpolate_gradient(const ConstFieldRef& f, const G
 /// ghost row.
 KOKKOS_INLINE_FUNCTION Vec3 interpolate_curl(const ConstFaceRef& f, const GridRef& g,
                                              const PointStencil& s) {
-  // From one node of the stencil to the next along x, y or z.
+  // Differences from one node of the stencil to the next along x, y or z.
   const auto along_x = [&](const ConstFieldRef& c, const LinearStencil& y, const LinearStencil& z) {
     const int i = s.x_centre.i;
     return (interpolate(c, {i, 1}, y, z) - interpolate(c, {i, 0}, y, z)) / g.dx;

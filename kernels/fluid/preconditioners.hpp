@@ -5,13 +5,13 @@
 
 namespace barchan {
 
-/// The direct solve for clear fluid.
+/// Direct solve for clear fluid.
 struct PlainFft {
   static constexpr Named named{"fft", "direct solve for clear fluid"};
   static constexpr bool relaxes = false;
 };
 
-/// The same between sweeps over the columns that grains hinder (column_relaxation.hpp).
+/// Direct solve between sweeps over the columns that grains hinder (column_relaxation.hpp).
 struct RelaxedFft {
   static constexpr Named named{"local_fft", "the same, and a relaxation in cells with grains"};
   static constexpr bool relaxes = true;

@@ -39,7 +39,7 @@ KOKKOS_FORCEINLINE_FUNCTION Real pressure_operator(const GridRef& grid, const Co
   return x * (1 / (grid.dx * grid.dx)) + y * (1 / grid.dy(j)) + z * (1 / (grid.dz * grid.dz));
 }
 
-/// E p = -div((c - 1) grad p) in a cell: what grains add to the operator of clear water. Zero where
+/// E p = -div((c - 1) grad p) in a cell: what grains add to the operator of clear fluid. Zero where
 /// c is one on all faces inside.
 KOKKOS_FORCEINLINE_FUNCTION Real obstruction(const GridRef& grid, const ConstFaceRef& c,
                                              const ConstFieldRef& p, int i, int j, int k) {

@@ -50,7 +50,7 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 velocity_at_cell(const ConstFaceRef& u, int i, 
           Real(0.5) * (u.z(i, j, k) + u.z(i, j, k + 1))};
 }
 
-/// The same for all cells, written.
+/// Writes the velocity at all cell centres.
 struct CentreVelocity {
   ConstFaceRef u;
   FieldRef x, y, z;

@@ -16,7 +16,7 @@ constexpr std::size_t kAround = 360, kOutwards = 31;  // every degree; heights o
 constexpr double kWithin = 1 - 1e-10;  // share of the way to the outline: places on it are inside
 constexpr double kPerLength = 90, kMostAlong = 20000;
 
-/// Where the distance turns positive from `inside` towards `end`, by halving; `end` if nowhere.
+/// Finds by halving where the distance turns positive from `inside` towards `end`; else `end`.
 template <class Distance>
 double edge(double inside, double end, const Distance& distance) {
   for (int n = 0; n < 60; ++n) {
@@ -26,13 +26,14 @@ double edge(double inside, double end, const Distance& distance) {
   return inside;
 }
 
-/// From the middle of a square with sides of 2 to its outline; corners at odd multiples of pi/4.
+/// Way from the middle of a square of sides 2 to its outline; corners at odd multiples of pi/4.
 std::array<double, 2> to_square(double angle) {
   const double c = std::cos(angle), s = std::sin(angle), along = std::sin(2 * angle);
   if (std::abs(c) >= std::abs(s)) return {std::copysign(1, c), std::copysign(1, c) * along};
   return {std::copysign(1, s) * along, std::copysign(1, s)};
 }
 
+/// Finds the outline of a body and its heights by its distance alone, whatever its shape.
 class Surveyor {
  public:
   Surveyor(const BodyConfig& body, const std::array<double, 3>& domain)

@@ -44,17 +44,17 @@ class CoupledStep {
   void close_step(SystemState& state);
 
   const FluidStepReport& fluid_report() const { return fluid_report_; }
-  /// What changed sides in the last step, and since the run began.
+  /// Exchange between flow and grains in the last step; ledger(): since the run began.
   const ExchangeLedger& exchange() const { return exchange_->ledger(); }
   const Ledger& ledger() const { return ledger_; }
-  /// Of the flow on all grains in the last step [N s].
+  /// Impulse of the flow on all grains in the last step [N s].
   Vec3 impulse_on_grains() const;
   const Phases& phases() const { return phases_; }
   int substeps() const { return n_substeps_; }
-  /// Of a fluid step [s].
+  /// Length of a fluid step [s].
   Real dt() const { return dt_; }
 
-  /// Those that move flow and grains; null for a part that the state does not have.
+  /// Solvers of flow and grains; null for a part that the state does not have.
   const FluidSolver* fluid_solver() const { return fluid_.get(); }
   const GrainSolver* grain_solver() const { return grains_.get(); }
   NeighborList* neighbor_list() { return grains_ ? &grains_->list() : nullptr; }

@@ -7,13 +7,14 @@
 namespace barchan {
 
 /// A name for each meaning. Names of one declaration share memory: each is written after the one
-/// before it was read for the last time. Most of this memory is the flow solver's, who needs it
-/// only within its steps. The constructor, and nothing else, says which memory is whose.
+/// before it was read for the last time. Most of this memory is the Workspace of the flow
+/// solver, which needs it only within its steps. The constructor, and nothing else, says which
+/// memory is whose.
 struct CouplingFields {
   CouplingFields(const FluidSolver& solver, const CouplingGrid& at, bool has_interlayer_drag);
   CouplingFields(const CouplingFields&) = delete;
 
-  /// Nothing that was written before is read any more; poison.hpp.
+  /// Lends memory whose old values are not read any more; poison.hpp.
   void lend_to_gather() const;
   void lend_to_deposit() const;
   void give_back() const;
@@ -33,25 +34,26 @@ struct CouplingFields {
   // the last fluid step has read and the next deposit writes.
   CellVector stress_in_cells;
 
-  // Layered gather, what of the solid belongs to the momentum cells around faces, per volume.
+  // Layered gather, solid in the momentum cells around faces, per volume.
   // Shares memory with the coefficients of the interlayer drag of `on_faces`, likewise.
   Field solid_x, solid_z;
 
-  // Set before the gather: the cells of the grains, and those where alpha_f is less than one. By
-  // the deposit: those over which it spreads their volume, and what the flow has to know, which
-  // holds all of these and the last ones of alpha_f.
+  // Cells of the grains, and cells where alpha_f is less than one: set before the gather.
   ActiveRegion of_grains, of_fraction;
+  // Cells over which the deposit spreads the grains' volume.
   Region smoothed;
+  // Cells that the flow has to know: all of these, and the last ones of alpha_f. Set by the
+  // deposit.
   FlowRegions of_flow;
-  // And those that grains give to; those whose impulse goes to the faces of `of_flow.exchange`,
-  // without layers.
+  // Cells that grains give to; those whose impulse goes to the faces of `of_flow.exchange`, without
+  // layers.
   Region deposited, of_impulse;
 
   // Kept through the fluid step.
-  Field alpha_raw;           // set by the gather, within of_flow; empty without
+  Field alpha_raw;           // set by the gather, within of_flow; empty without smoothing
   ExchangeOnFaces on_faces;  // set by the deposit
 
-  /// The fraction before the smoothing, with ghosts: alpha_f itself without one.
+  /// Fluid fraction before the smoothing, with ghosts; alpha_f itself where nothing is smoothed.
   const Field& raw_fraction(const FluidState& fluid) const {
     return alpha_raw.storage.size() > 0 ? alpha_raw : fluid.alpha_f;
   }

@@ -1,4 +1,4 @@
-// From the grains to the flow.
+// Deposit of the grains' volume and momentum in the flow.
 #pragma once
 
 #include "kernels/coupling/deposit_on_faces.hpp"

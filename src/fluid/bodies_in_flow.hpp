@@ -24,17 +24,17 @@ class BodiesInFlow : public FlowTerm {
   int count() const { return static_cast<int>(feet_.size()); }
   /// Columns of cells that know of bodies, the same on all ranks.
   const ColumnMap& columns() const { return near_; }
-  /// Zero on closed faces.
+  /// Sets closed faces to zero.
   void close(FaceVector& f) const;
-  /// Zero in closed cells.
+  /// Sets closed cells to zero.
   void close(Field& f) const;
   /// Volume of solid that alpha leaves for closed cells [m^3].
   void add_solid_inside(const Field& alpha, const DeviceReductions& reductions, int slot) const;
 
   const FlowRegions* regions() const override { return &regions_; }
-  /// Old fraction becomes the new one in closed cells: what stands there is not in the flow.
+  /// Makes the old fraction the new one in closed cells, which are not in the flow.
   void correct_fraction(FluidState& fluid) override;
-  /// No eddies in bodies.
+  /// Sets nu_t to zero in bodies.
   void limit_eddies(Field& nu_t) override;
   /// Direct forcing of u* and the mobility. Walls do not slow down in a dt of zero.
   void after_predict(const FlowStep& step) override;
@@ -58,16 +58,16 @@ class BodiesInFlow : public FlowTerm {
   int n_faces() const { return faces_.extent_int(0); }
   int n_cells() const { return cells_.extent_int(0); }
 
-  std::vector<Vec3> feet_;  // of the solids: what torques are about [m]
+  std::vector<Vec3> feet_;  // points of the solids that torques are about [m]
   Grid grid_;
   Real density_;
   Kokkos::View<BodyFace*> faces_;
   std::vector<int> first_face_;  // of each body
-  int n_bodies_ = 0;             // those of the case; behind them come frozen grains
+  int n_bodies_ = 0;             // bodies of the case; behind them come frozen grains
   Kokkos::View<int*> first_face_of_grain_;
   Kokkos::View<Vec3*> foot_of_grain_;  // [m]
   Kokkos::View<BodyCell*> cells_;
-  Real height_of_fluid_ = 0;      // of the cells that are not closed, over all columns [m]
+  Real height_of_fluid_ = 0;      // sum of the heights of open cells, over all columns [m]
   Kokkos::View<Real*> unforced_;  // u* at the faces before the direct forcing [m/s]
   ColumnMap near_;
   FlowRegions regions_;

@@ -75,7 +75,7 @@ class FaceFinder {
     to_device();
   }
 
-  /// From the cells that are far enough from bodies.
+  /// Finds the cells that fluid reaches from those far enough from bodies.
   void flood() {
     Real most = 0;
     each_cell([&](int i, int j, int k) { most = std::max(most, distance(centre(i, j, k))); });
@@ -90,7 +90,7 @@ class FaceFinder {
     Real more = 1;
     while (more > 0) {
       halo_.fill(reached_);
-      more = sum_each_cell("bodies: water", cells_, SpreadWater{open_, reached_, after});
+      more = sum_each_cell("bodies: fluid", cells_, SpreadFluid{open_, reached_, after});
       std::swap(reached_, after);
     }
     halo_.fill(reached_);
@@ -118,14 +118,14 @@ class FaceFinder {
     faces.push_back(face);
   }
 
-  /// Of the walls between an open face and the closed ones next to it.
+  /// Friction of the walls between an open face and the closed ones next to it [1/s].
   Real friction(int axis, int i, int j, int k) const {
     const Vec3 here = face_middle(grid_, axis, i, j, k);
     Real sum = 0;
     const auto add = [&](int di, int dj, int dk, Real h, Real width) {
       if (!is_closed(axis, i + di, j + dj, k + dk)) return;
       const Vec3 there = face_middle(grid_, axis, i + di, j + dj, k + dk);
-      sum += friction_of_wall(nu_, share_in_water(solids_, here, there), h, width);
+      sum += friction_of_wall(nu_, share_in_fluid(solids_, here, there), h, width);
     };
     for (const int side : {-1, 1}) {
       add(side, 0, 0, grid_.dx, grid_.dx);

@@ -52,7 +52,7 @@ void ConjugateGradients::start(const FaceVector& c, Field& b, Field& p) {
     fill_ghosts_near(p);
   }
   const NormAndMean norm{grid_, b};
-  sum_vector("pressure: clear water", numbers_, kNormOfB, owned_cells(grid_),
+  sum_vector("pressure: clear fluid", numbers_, kNormOfB, owned_cells(grid_),
              ByRegion{near_->ref(), SubtractObstruction{norm, c, p, b, e_}, norm});
   numbers_.combine(ranks, kNormOfB, 2, MPI_SUM);
   launch_scalar_kernel("pressure: mean of b",

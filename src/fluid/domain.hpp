@@ -20,8 +20,8 @@ Grid make_grid(int nx, int nz, Real lx, Real lz, const std::vector<double>& y_fa
 /// The grid of [domain] and [fluid]; `config.fluid` must be there.
 Grid make_grid(const FluidCase& config, const Decomposition* ranks = nullptr);
 
-/// Its pencils among the ranks; nothing for one rank, or without fluid. All ranks together. Throws
-/// ConfigError if there are too many of them.
+/// Pencils of the grid among the ranks; null for one rank, or without fluid. All ranks together.
+/// Throws ConfigError if there are too many ranks.
 std::unique_ptr<const Decomposition> make_decomposition(const std::optional<FluidConfig>& fluid,
                                                         MPI_Comm communicator);
 

@@ -1,4 +1,4 @@
-// What drives the flow: the bulk velocity that it is to have, and the body force that gives it.
+// Drive of the flow: the bulk velocity that it is to have, and the body force that gives it.
 #pragma once
 
 #include <vector>
@@ -20,10 +20,11 @@ struct DrivenFlow {
 /// sum(alpha u V)/sum(alpha V) before the projection.
 class Drive {
  public:
-  /// Of a case: bulk velocities (flow_schedule.hpp), a given pressure gradient along x, or none.
+  /// Takes what a case gives: bulk velocities (flow_schedule.hpp), a pressure gradient along x, or
+  /// nothing.
   Drive(const FluidConfig& config, std::vector<FlowTarget> schedule);
 
-  /// Whether it ever acts along z. If not, nothing is computed for it.
+  /// True if the drive ever acts along z. If not, nothing is computed for it.
   bool along_z() const { return along_z_; }
   /// The bulk velocity wanted at t [m/s], of a flow that began with `at_start`.
   Vec2 target(Real t, const Vec2& at_start) const;

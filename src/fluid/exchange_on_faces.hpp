@@ -1,4 +1,4 @@
-// What the grains do to the fluid in one step.
+// Exchange of the fluid with grains in one step.
 #pragma once
 
 #include "src/parallel/region.hpp"
@@ -12,13 +12,14 @@ struct FlowRegions {
   ActiveRegion fraction;  // elsewhere the fraction is one, before and after the step
 };
 
-/// On faces. Of the impulse wall faces and ghosts are not read.
+/// Exchange on faces. The impulse is not read on walls and in ghosts.
 struct ExchangeOnFaces {
-  FaceVector impulse;  // momentum per volume given to the fluid [N s/m^3]
-  Field interlayer_drag_x{},
-      interlayer_drag_z{};  // of InterlayerDrag, on faces [kg/m^3]; empty: none
-  Field alpha_raw{};        // share of the stress that the fluid takes; empty: its old fraction
-  const FlowRegions* regions = nullptr;  // none: everywhere. Nothing is read elsewhere
+  FaceVector impulse;         // momentum per volume given to the fluid [N s/m^3]
+  Field interlayer_drag_x{};  // coefficients of InterlayerDrag [kg/m^3]; empty: none
+  Field interlayer_drag_z{};
+  Field
+      alpha_raw{};  // raw fluid fraction, by which the fluid shares the stress; empty: its old one
+  const FlowRegions* regions = nullptr;  // where anything is read; null: everywhere
 };
 
 }  // namespace barchan

@@ -1,4 +1,4 @@
-// What is measured of a flow for reports.
+// Measures of a flow for reports.
 #pragma once
 
 #include "src/fluid/fluid_case.hpp"
@@ -8,7 +8,7 @@ namespace barchan {
 
 /// sum(alpha u V) / sum(alpha V) along x [m/s].
 Real bulk_velocity(const FluidState& fluid);
-/// The same along z.
+/// sum(alpha w V) / sum(alpha V) along z [m/s].
 Real bulk_velocity_across(const FluidState& fluid);
 
 /// sqrt(nu |mean dU/dy|) over the walls without slip [m/s]; 0 if there are none. Of a flow that is

@@ -7,7 +7,7 @@
 namespace barchan {
 namespace {
 
-/// What `entry` wants at t, of a flow that had `from` at its time.
+/// Bulk velocity that `entry` wants at t from a flow that had `from` when the entry began.
 PlaneVelocity wanted_by(const FlowTarget& entry, const PlaneVelocity& from, double t) {
   const double since = t - entry.time;
   const double share = entry.ramp > 0 ? std::min(1.0, since / entry.ramp) : 1;

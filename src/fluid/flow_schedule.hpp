@@ -7,8 +7,9 @@
 
 namespace barchan {
 
-/// What a case wants, in order of time, from t = 0 on: its schedule, or mean_velocity and ramp_time
-/// as the only entry. Empty if a pressure gradient or nothing drives the flow.
+/// Bulk velocities that a case wants, in order of time, from t = 0 on: its schedule, or
+/// mean_velocity and ramp_time as the only entry. Empty if a pressure gradient or nothing drives
+/// the flow.
 std::vector<FlowTarget> flow_schedule(const FluidConfig& fluid);
 
 /// The bulk velocity of a flow that begins as its schedule wants it, the first entry's [m/s]; zero
@@ -22,7 +23,7 @@ PlaneVelocity velocity_at_start(const std::vector<FlowTarget>& schedule);
 PlaneVelocity wanted_velocity(const std::vector<FlowTarget>& schedule,
                               const PlaneVelocity& at_start, double t);
 
-/// Whether it ever wants a flow along x, along z.
+/// True if a schedule ever wants a flow along x, along z.
 bool goes_along(const std::vector<FlowTarget>& schedule);
 bool goes_across(const std::vector<FlowTarget>& schedule);
 

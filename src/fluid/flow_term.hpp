@@ -30,7 +30,7 @@ struct FlowStep {
 };
 
 /// A term of the step beside convection and stress, which are ExplicitTerms of the predictor. The
-/// solver calls each function once a step, in this order; a term defines those that it needs.
+/// solver calls the functions of all terms in this order; a term defines those that it needs.
 class FlowTerm {
  public:
   virtual ~FlowTerm() = default;
@@ -46,7 +46,7 @@ class FlowTerm {
   virtual void after_predict(const FlowStep&) {}
   /// Acts on u*_z, to which the drive across has just been added.
   virtual void after_drive_across(const FlowStep&) {}
-  /// Projects the source of the pressure, and the pressure, onto what this term allows.
+  /// Projects the source of the pressure, then the pressure, onto what this term allows.
   virtual void constrain_pressure(Field&, const DeviceReductions&) {}
   /// Follows the new velocity and pressure, or adds up numbers of them.
   virtual void after_correct(const FlowStep&) {}

@@ -1,4 +1,4 @@
-// What a case says of its flow.
+// Flow of a case: its keys, and what is settled.
 #pragma once
 
 #include <array>
@@ -60,7 +60,7 @@ struct SolverConfig {
   bool operator==(const SolverConfig&) const = default;
 };
 
-/// What a flow is computed from, settled once.
+/// Settled values that a flow is computed from.
 struct FluidCase {
   std::filesystem::path file;  // of the case, for messages
   FluidConfig fluid;

@@ -6,7 +6,7 @@
 
 namespace barchan {
 
-/// What stands behind walls and at cuts (boundary.hpp).
+/// Ghosts of a field behind walls and at cuts (boundary.hpp).
 enum class Ghosts { none, velocity, acceleration, scalar, eddy_viscosity };
 
 enum FluidFieldUse : unsigned {

@@ -35,7 +35,7 @@ class LineFft {
   /// modes.
   void forward_x(const Real* real, Kokkos::complex<Real>* modes) const;
   void backward_x(Kokkos::complex<Real>* modes, Real* real) const;
-  /// In place.
+  /// Transform along z, in place.
   void forward_z(Kokkos::complex<Real>* modes) const;
   void backward_z(Kokkos::complex<Real>* modes) const;
 

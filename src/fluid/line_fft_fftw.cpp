@@ -43,8 +43,8 @@ Plan checked(fftw_plan plan) {
 /// One-dimensional plans, applied to one z plane (x) or one row (z) at a time: FFTW's own threads
 /// would plan the strided z direction badly without measuring.
 struct LineFft::Library {
-  /// Those of x for a plane that starts as those of a field do, in which FFTW may use vectors; and
-  /// for one that starts anywhere.
+  /// Plans along x: for a plane that starts as those of a field do, in which FFTW may use vectors;
+  /// and for one that starts anywhere.
   struct AlongX {
     Plan forward, backward;
   };

@@ -4,9 +4,9 @@ namespace barchan {
 
 namespace {
 
-// Of a dune of 1e5 grains two solves leave 7e-7 of b, and three sweeps without over-relaxation, in
-// the columns obstructed below 0.999, left 1e-5; the FFT alone needs 15 solves for 1e-6. Eight
-// sweeps do without over-relaxation what five do with 1.35; 1.5 is no better.
+// Two solves leave 7e-7 of b around a dune of 1e5 grains. There three sweeps without
+// over-relaxation, in the columns obstructed below 0.999, left 1e-5; the FFT alone needs 15 solves
+// for 1e-6. Eight sweeps do without over-relaxation what five do with 1.35; 1.5 is no better.
 constexpr int kSweeps = 5;
 constexpr Real kOverRelaxation = 1.35;
 constexpr Real kObstructedBelow = 0.99999;

@@ -17,7 +17,7 @@ struct RowSpacing {
   bool operator==(const RowSpacing&) const = default;
 };
 
-/// That of [fluid] in a domain of this height [m].
+/// Spacing of the rows of [fluid] in a domain of this height [m].
 RowSpacing row_spacing(const FluidConfig& fluid, double height);
 
 /// Rows that are as high as the first, at least 1.

@@ -63,7 +63,8 @@ class Ways {
   bool is_source(const Cell& c) const {
     return distance(c) >= std::min(far_from_bodies(grid_, c.j), most_ / 2);
   }
-  /// Of the cells' centres from a body; no more than what makes the farthest cells sources.
+  /// Largest distance of a cell's centre from a body; no more than makes the farthest cells
+  /// sources.
   Real largest_distance() const {
     Real widest = 0, most = 0;
     for (int j = 0; j < grid_.ny; ++j) widest = std::max(widest, far_from_bodies(grid_, j));

@@ -1,4 +1,4 @@
-// Whether bodies leave the flow a way.
+// Check that bodies leave the flow a way.
 #pragma once
 
 #include "kernels/bodies/body.hpp"
@@ -7,7 +7,7 @@
 
 namespace barchan {
 
-/// True if water can go round the periodic domain along x (axis 0) or z (2), through faces that
+/// True if fluid can go round the periodic domain along x (axis 0) or z (2), through faces that
 /// bodies leave open (find_body_faces). `grid`: of all ranks together.
 bool passes(const Bodies& bodies, const HostGrid& grid, int axis);
 

@@ -68,7 +68,7 @@ Bodies::Nearest FrozenGrains::nearest(const Vec3& x) const {
   if (grains_.empty()) return found;
   const int cell[] = {x_.of(x.x), y_.of(x.y), z_.of(x.z)};
   const Real size = std::min({x_.size, y_.size, z_.size});
-  // What lies outside the rings so far is at least this far away.
+  // Surfaces outside the rings so far are at least this far away.
   for (int ring = 0; found.surface.distance > (ring - 1) * size - r_max_; ++ring)
     look_around(ring, cell, x, found);
   return found;

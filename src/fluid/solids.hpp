@@ -27,7 +27,7 @@ class FrozenGrains {
   Bodies::Nearest nearest(const Vec3& x) const;
 
  private:
-  /// Of places along one axis.
+  /// Cells along one axis.
   struct Cells {
     int n = 1;
     Real start = 0, size = 1;  // [m]
@@ -42,7 +42,7 @@ class FrozenGrains {
   std::vector<int> first_, entry_;  // of each cell in entry_; grains by cell
 };
 
-/// What the flow goes round.
+/// Bodies and frozen grains that the flow goes round.
 class Solids {
  public:
   explicit Solids(const Bodies& bodies, FrozenGrains grains = {})

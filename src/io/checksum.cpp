@@ -11,7 +11,7 @@ constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15, kOdd = 0xd6e8feb86659fd93;
 
 constexpr std::uint64_t fold(std::uint64_t s) { return s ^ (s >> 32U); }
 
-/// Of values that lie side by side from the place `index` on.
+/// Checksum of values that lie side by side from the place `index` on.
 template <class T>
 std::uint64_t checksum_of_run(std::span<const T> values, std::uint64_t index) {
   using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;

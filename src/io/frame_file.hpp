@@ -36,7 +36,7 @@ class FrameFile {
   FrameFile(std::filesystem::path path, Provenance provenance, std::optional<double> restart_time,
             MPI_Comm communicator, Describe describe = nullptr);
 
-  /// What to write once when the file is made, besides the provenance; may be empty.
+  /// Writes once, when the file is made, after the provenance; may be empty.
   using Preamble = std::function<void(Hdf5File&)>;
   /// Writes the arrays of a frame below `group`.
   using Content = std::function<void(Hdf5File&, const std::string& group)>;

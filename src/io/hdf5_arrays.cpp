@@ -96,7 +96,7 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, const E
   }
   const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   if (parallel_) check(H5Pset_dxpl_mpio(transfer.get(), H5FD_MPIO_COLLECTIVE), name);
-  // Nothing is allocated for an array without elements; the parallel driver fails to write it.
+  // An array without elements is not allocated; the parallel driver fails to write it.
   if (count_of_all > 0) {
     check(H5Dwrite(array.get(), memory_type<T>(), memory.get(), file.get(), transfer.get(),
                    values.data()),
@@ -129,7 +129,7 @@ ArrayInfo Hdf5File::info(const std::string& name) const {
   const std::uint64_t packed = H5Pget_nfilters(creation.get()) > 0 ? 1100 : 1;
   const std::uint64_t file_size = std::filesystem::file_size(path_);
   std::uint64_t count = 0;
-  // In this order: the library itself is no good at extents beyond 64 bits.
+  // Elements are counted first: the library itself fails with extents beyond 64 bits.
   if (!count_elements(result.extents, count) ||
       count / packed > std::min<std::uint64_t>(file_size, H5Dget_storage_size(array.get())) /
                            H5Tget_size(type.get())) {

@@ -1,12 +1,12 @@
-// How HDF5 reaches the disk in a serial run: its own POSIX driver behind one of ours. The library
-// cannot close a file whose writes fail: it keeps it, and crashes at the end of the program. This
-// driver therefore takes note of the first failure, writes nothing more, and lets the library go on
-// undisturbed; Hdf5File looks at the note. The file is then as if the program had been killed at
-// that write.
-// What a file held when it was opened stays readable at every moment: of a block that is written
-// anew only the words that differ are written, the last one first. A new link thus lies complete
-// behind the end of the list of links before its first word makes it part of the list.
-// It also takes no locks: a viewer that has the file open must not be able to stop a run.
+// Driver by which HDF5 reaches the disk in a serial run: its own POSIX driver behind one of ours.
+// The library cannot close a file whose writes fail: it keeps it, and crashes at the end of the
+// program. This driver therefore takes note of the first failure, writes nothing more, and lets the
+// library go on undisturbed; Hdf5File looks at the note. The file is then as if the program had
+// been killed at that write. Contents of a file when it was opened stay readable at every moment:
+// of a block that is written anew only the words that differ are written, the last one first. A new
+// link thus lies complete behind the end of the list of links before its first word makes it part
+// of the list. It also takes no locks: a viewer that has the file open must not be able to stop a
+// run.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -31,10 +31,11 @@ struct OpenFile {
 
 OpenFile& own(H5FD_t* file) { return *reinterpret_cast<OpenFile*>(file); }
 H5FD_t* posix(const H5FD_t* file) { return reinterpret_cast<const OpenFile*>(file)->posix; }
-/// Its functions, called directly: those of the library's interface clear the stack of errors.
+/// Functions of the POSIX driver, called directly: those of the library's interface clear the stack
+/// of errors.
 const H5FD_class_t& calls(const H5FD_t* file) { return *posix(file)->cls; }
 
-/// Of what the POSIX driver returned.
+/// Notes a failure that the POSIX driver returned.
 herr_t note(std::string& failure, herr_t result) {
   if (result < 0 && failure.empty()) failure = last_reason();
   return result;
@@ -70,8 +71,8 @@ herr_t read_bytes(H5FD_t* file, H5FD_mem_t type, hid_t transfer, haddr_t address
               calls(file).read(posix(file), type, transfer, address, size, buffer));
 }
 
-/// As the first lines of this file say. A word that begins at a multiple of its size lies in one
-/// page, of which the system writes all or nothing.
+/// Writes a block over the old one, as the first lines of this file say. A word that begins at a
+/// multiple of its size lies in one page, of which the system writes all or nothing.
 herr_t write_in_place(H5FD_t* file, H5FD_mem_t type, hid_t transfer, haddr_t address,
                       std::size_t size, const char* bytes) {
   constexpr std::size_t word = 8;

@@ -187,7 +187,7 @@ void Hdf5File::publish_group() {
   check(H5Oincr_refcount(hidden_), hidden_name_);
   hobj_ref_t address = 0;
   check(H5Rcreate(&address, hidden_, ".", H5R_OBJECT, -1), hidden_name_);
-  // All the new link leads to is on the disk before the link.
+  // The data are on the disk before the link to them.
   if (!parallel_) {
     check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
     check_writes();

@@ -132,7 +132,7 @@ class Hdf5File {
   template <class T>
   void put_checksum(const std::string& name, std::span<const T> values, const Extents& extents,
                     const Hyperslab& slab);
-  /// As read(), of an array that is known.
+  /// Reads, as read() does, an array whose shape is known.
   template <class T>
   std::vector<T> read_as(const std::string& name, const ArrayInfo& found, const Extents& first,
                          const Extents& size) const;
@@ -160,9 +160,9 @@ struct Provenance {
   std::string inputs{};   // what the run began from (src/run/case_inputs.hpp); empty: no files
 };
 
-/// As attributes of the file's root. Throws Hdf5Error.
+/// Writes the provenance as attributes of the file's root. Throws Hdf5Error.
 void write_provenance(Hdf5File& file, const Provenance& provenance);
-/// What the file says of itself; empty where it says nothing.
+/// Provenance that a file states; empty where it states none.
 Provenance read_provenance(const Hdf5File& file);
 
 }  // namespace barchan

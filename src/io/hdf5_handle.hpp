@@ -47,8 +47,7 @@ void start_library();
 /// words. Call it before any other HDF5 function: each clears the stack.
 std::string last_reason();
 
-/// What the serial driver is told: where to note why the first system call failed. It must outlive
-/// the file.
+/// Place where the serial driver notes why the first system call failed. It must outlive the file.
 struct DriverInfo {
   std::string* failure = nullptr;
 };

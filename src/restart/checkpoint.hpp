@@ -44,7 +44,7 @@ Extents file_extents(const View& view) {
   return extents;
 }
 
-/// The same extents in a contiguous array, first index fastest, in the view's memory space.
+/// Contiguous array of the same extents, first index fastest, in the view's memory space.
 template <class View>
 auto dense_like(const View& view) {
   using Dense = Kokkos::View<typename View::non_const_data_type, Kokkos::LayoutLeft,

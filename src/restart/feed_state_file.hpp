@@ -1,4 +1,4 @@
-// What a feed of grains remembers, in restart files. All ranks together.
+// State of a feed of grains in restart files. All ranks together.
 #pragma once
 
 #include "src/grains/feed_state.hpp"
@@ -6,10 +6,10 @@
 
 namespace barchan {
 
-/// Nothing where no grains were fed so far, nor looked at for it.
+/// Writes the state; nothing where no grains were fed so far, nor looked at for it.
 void save_feed(CheckpointWriter& file, const FeedState& feed);
 
-/// Of a run without a feed the state that a feed begins with, at the time of the file.
+/// Reads the state. If the file has no feed: the initial one, at the time of the file.
 FeedState load_feed(const CheckpointReader& file);
 
 }  // namespace barchan

@@ -159,8 +159,8 @@ void save_of_every_rank(CheckpointWriter& file, const std::string& name, MPI_Com
   file.array(name, std::span<const std::int64_t>(&mine, 1), {1}, slab_of_entries(1, ranks));
 }
 
-/// All contacts of this rank's list, by the ids of both grains: one of owned and ghost grain is on
-/// both ranks.
+/// Writes all contacts of this rank's list, by the ids of both grains: one of owned and ghost grain
+/// is on both ranks.
 void save_contacts(CheckpointWriter& file, const GrainState& s) {
   const PairList& list = s.list;
   const auto here = [](const auto& view, int n) { return host_copy(first_entries(view, n)); };
@@ -186,7 +186,8 @@ void save_contacts(CheckpointWriter& file, const GrainState& s) {
   save_of_every_rank(file, "contacts/of_rank", s.ranks, static_cast<std::int64_t>(pairs.size()));
 }
 
-/// Of a file of an earlier version at least that of the grains in it: others may have left.
+/// Last id given to a grain. In a file of an earlier version at least that of the grains in it:
+/// others may have left.
 std::int64_t last_id_in(const CheckpointReader& file, const GrainState& s) {
   if (file.has("grains/last_id")) return file.integer("grains/last_id");
   std::int64_t last = s.n_initial;

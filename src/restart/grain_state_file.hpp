@@ -13,8 +13,8 @@ void save_grains(CheckpointWriter& file, const GrainState& grains, const Neighbo
 /// if as many ranks did, else an equal share.
 GrainState grains_in_file(const CheckpointReader& file, MPI_Comm ranks);
 
-/// All that save_grains() wrote, into `grains` from grains_in_file(). On another number of ranks
-/// the neighbour list is built anew.
+/// Reads all that save_grains() wrote into `grains` from grains_in_file(). On another number of
+/// ranks the neighbour list is built anew.
 void load_grains(const CheckpointReader& file, GrainState& grains, NeighborList& list);
 
 }  // namespace barchan

@@ -17,7 +17,7 @@ void save_state(CheckpointWriter& file, const SystemState& state, const Neighbor
 /// restores the neighbour list. Throws std::runtime_error if the file is of another mesh.
 void load_state(const CheckpointReader& file, SystemState& state, NeighborList* list);
 
-/// Only the flow, as the start of another run on the same mesh.
+/// Reads the flow alone, as the start of another run on the same mesh.
 void load_flow(const CheckpointReader& file, FluidState& fluid);
 
 /// A field of the grid: the cells of all ranks with the ghosts around the whole domain; ghosts of

@@ -48,7 +48,7 @@ struct CsvTable {
     for (const Column<Record>& c : columns) all.push_back({c.name, c.unit, c.meaning});
     return all;
   }
-  /// With its end of line.
+  /// Line of a record, with its end.
   std::string line(const Record& record) const {
     std::string text;
     for (const Column<Record>& column : columns) {

@@ -1,4 +1,4 @@
-// What fields.h5 and slices hold of each cell: src/fluid/fluid_fields.hpp in words of files.
+// Outputs of each cell in fields.h5 and slices, from src/fluid/fluid_fields.hpp.
 #pragma once
 
 #include <vector>

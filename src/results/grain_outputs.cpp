@@ -110,7 +110,7 @@ constexpr GrainOutput kGrainOutputs[] = {
 
 Output words_of(const GrainOutput& one) { return {one.name, one.unit, one.meaning}; }
 
-/// Those of this rank among those of all.
+/// Writes the rows of this rank among those of all.
 template <class T>
 void write(Hdf5File& file, const std::string& group, const Output& about, const HostRows<T>& rows,
            const Hyperslab& entries) {

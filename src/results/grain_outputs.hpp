@@ -1,4 +1,4 @@
-// What grains.h5 and tracks.h5 hold of each grain.
+// Outputs of each grain in grains.h5 and tracks.h5.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace barchan {
 /// Label of the dune that each grain of this rank belongs to, -1: none; empty: not known.
 using DuneLabels = std::optional<std::vector<int>>;
 
-/// What the arrays of a frame are computed from.
+/// Data that the arrays of a frame are computed from.
 struct GrainFrame {
   const GrainState& grains;
   PeriodicBox box = {};     // positions are written as the images within
@@ -24,7 +24,7 @@ struct GrainFrame {
 /// Writes all arrays of grains [0, n) that the run has: grains.h5. Collective over the ranks of the
 /// grains.
 void write_grain_outputs(Hdf5File& file, const std::string& group, const GrainFrame& frame);
-/// Only those of tracks.h5.
+/// Writes the arrays of tracks.h5 alone.
 void write_track_outputs(Hdf5File& file, const std::string& group, const GrainFrame& frame);
 
 /// All arrays of grains.h5, for the page.

@@ -1,4 +1,4 @@
-// What a case says of its files.
+// Files of a case: its keys.
 #pragma once
 
 #include <array>

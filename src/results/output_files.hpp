@@ -39,7 +39,7 @@ class OutputFiles {
   /// Upper faces are read from the ghost layer, which must be valid.
   void write_fields(const FluidState& fluid, double t, std::int64_t step);
 
-  /// The same fields in one layer of cells, slice_NAME.h5.
+  /// Writes the fields of one layer of cells, slice_NAME.h5.
   void write_slice(const SliceConfig& slice, const FluidState& fluid, double t, std::int64_t step);
 
   /// Grains [0, n): id, x and d in double precision, u, omega and forces in single precision.

@@ -1,4 +1,4 @@
-// What result files hold, in words: a name, a unit and a meaning for each quantity.
+// Outputs of result files in words: a name, a unit and a meaning for each quantity.
 #pragma once
 
 #include <span>
