@@ -16,12 +16,12 @@
 #include "barchan_version.hpp"
 #include "src/app/check_case.hpp"
 #include "src/app/info_path.hpp"
-#include "src/app/machine_limits.hpp"
 #include "src/app/run_case.hpp"
 #include "src/base/errors.hpp"
 #include "src/base/report.hpp"
 #include "src/base/words.hpp"
 #include "src/parallel/communicator.hpp"
+#include "src/parallel/start_mpi.hpp"
 #include "src/toml/keys_page.hpp"
 #include "src/toml/schema.hpp"
 
@@ -32,8 +32,7 @@ namespace {
 /// thread; calls from several at once would cost locks.
 struct MpiScope {
   MpiScope(int* argc, char*** argv) {
-    int provided = MPI_THREAD_SINGLE;
-    MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &provided);
+    start_mpi(argc, argv);
     MPI_Comm_dup(MPI_COMM_WORLD, &refusals);
   }
   ~MpiScope() {
@@ -156,12 +155,6 @@ int main(int argc, char** argv) {
   using namespace barchan;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
   keep_standard_streams();
-  try {
-    check_machine_limits();
-  } catch (const InputError& problem) {
-    std::cerr << "error: " << printable_lines(problem.what()) << '\n';
-    return 2;
-  }
   const MpiScope mpi(&argc, &argv);
   try {
     const auto line =

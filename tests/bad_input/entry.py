@@ -71,7 +71,7 @@ class Entry:
     problems: int = 1
     ranks: int = 1
     env: dict = field(default_factory=dict)
-    under: str = ""  # "nobody", "tmpfs SIZE", "fsize BYTES", "as BYTES", "nofile NUMBER": as whom, where, within what
+    under: str = ""  # "nobody", "tmpfs SIZE", "fsize BYTES", "as BYTES": as whom, where, within what
 
     def config(self):
         """The bytes of case.toml."""

@@ -40,10 +40,8 @@ NOISE = re.compile(
 AROUND = re.compile(r"^(usage: .*\n( .*\n)*|(Run with --help|warning: |libgomp: |libgcov profiling error:).*\n)", re.M)
 
 
-def environment_of(ranks, temporary):
+def environment_of(temporary):
     kept = {k: v for k, v in os.environ.items() if not k.startswith(("OMP_", "BARCHAN_"))}
-    if ranks == 1:  # without daemon and network: half a second less at every start
-        kept |= {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self", "OMPI_MCA_osc": "^ucx"}
     return {**kept, "OMP_NUM_THREADS": "1", "OMP_PROC_BIND": "false", "LC_ALL": "C.UTF-8", "TMPDIR": str(temporary),
             "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
@@ -54,7 +52,7 @@ def make_good_runs(program, folder):
         (folder / f"{name}.toml").write_text(text)
         command = [program, "run", f"{name}.toml", "--out", name, "--quiet", "--set", "time.end=0.001", "--set",
                    "restart.interval=5e-4"]
-        subprocess.run(command, cwd=folder, env=environment_of(1, folder), check=True, stderr=subprocess.DEVNULL)
+        subprocess.run(command, cwd=folder, env=environment_of(folder), check=True, stderr=subprocess.DEVNULL)
 
 
 def snapshot(folder):
@@ -100,7 +98,7 @@ def conditions(entry, folder):
     elif kind == "nobody" and os.geteuid() == 0:
         yield ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"] if shutil.which("setpriv") else None
     else:
-        yield ["prlimit", f"--{kind}={size}"] if kind in ("fsize", "as", "nofile") else []
+        yield ["prlimit", f"--{kind}={size}"] if kind in ("fsize", "as") else []
 
 
 def command_of(entry, program):
@@ -145,7 +143,7 @@ def attempt(entry, program, good, scratch, number):
             return None, None
         lay_out(entry, folder, good)
         before = snapshot(folder)
-        environment = {**environment_of(entry.ranks, temporary), **entry.env}
+        environment = {**environment_of(temporary), **entry.env}
         if entry.under:  # a program that counts its lines cannot write them everywhere, nor as anyone
             environment["GCOV_PREFIX"] = str(temporary)
         code, out, err = execute([*prefix, *command_of(entry, program)], folder, environment)

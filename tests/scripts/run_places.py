@@ -106,10 +106,21 @@ def studies(work):
     call(work, 0, *sweep, f"{CONFIGS}/b/sizes.toml", "--no-pictures")  # runs/sizes is of another study
 
 
+def without_a_place_for_others(work):
+    """One process leaves nothing where MPI keeps its files, so runs that start together cannot meet there."""
+    for place in ("there", "gone"):
+        with_place = {**ENVIRONMENT, "TMPDIR": str(work / place)}
+        (work / "there").mkdir(exist_ok=True)
+        done = subprocess.run([PROGRAM, "check", DUNE_C], cwd=work, env=with_place, capture_output=True, text=True)
+        check(f"with TMPDIR {place}: {done.stderr}", done.returncode == 0)
+    check("MPI's folder is not empty", not any((work / "there").iterdir()))
+
+
 with tempfile.TemporaryDirectory() as name:
     folder = Path(name).resolve()
     write_cases(folder)
     one_start_for_both(folder)
     results_of_an_earlier_version(folder)
     studies(folder)
+    without_a_place_for_others(folder)
 print("run places: fine")

@@ -5,12 +5,13 @@
 #include <Kokkos_Core.hpp>
 
 #include "src/base/report.hpp"
+#include "src/parallel/start_mpi.hpp"
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
   if (::testing::GTEST_FLAG(list_tests)) return RUN_ALL_TESTS();  // ctest only asks for the names
 
-  MPI_Init(&argc, &argv);
+  barchan::start_mpi(&argc, &argv);
   int failed = 0;
   {
     Kokkos::ScopeGuard kokkos(argc, argv);
