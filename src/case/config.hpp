@@ -17,27 +17,17 @@
 
 namespace barchan {
 
-enum class PourShape { cone, bed };
 enum class HeapShape { cone, ridge, bed };
 
-/// [initial] grains = { pour = {...} }: a jittered lattice above the floor that settles.
-struct PourConfig {
-  PourShape shape = PourShape::cone;         // or a bed over the whole floor
-  std::array<double, 2> centre{0.04, 0.05};  // x, z [m]; in a case Lx/5, Lz/2 by default
-  double radius = 0;                         // of the unrelaxed cone's foot [m]
-  double drop_height = 0;                    // lowest grain above the floor [m]
-  std::uint64_t seed = 1;
-  bool operator==(const PourConfig&) const = default;
-};
-
-/// [[initial.heap]]: one of several heaps that are poured, instead of `pour`.
+/// [initial] grains = { pour = {...} }, or one of several [[initial.heap]]: a jittered lattice that
+/// settles.
 struct HeapConfig {
   std::string name;                   // in tables and pictures
   HeapShape shape = HeapShape::cone;  // or a ridge across the channel, or a bed over the floor
-  std::array<double, 2> centre{};     // x, z [m]; of a ridge x alone counts
+  std::array<double, 2> centre{};     // x, z [m]; by default Lx/5, Lz/2 of `pour`
   double radius = 0;                  // of a cone's foot, half the width of a ridge's [m]
   std::string kind;                   // a name of [[grains.kind]]; empty: all of them
-  std::vector<SizeClass> sizes;       // empty: grains.sizes, or those of its kind
+  std::vector<SizeClass> sizes;       // empty: grains.sizes, or of its kind
   double drop_height = 0;             // lowest grain above what lies there [m]
   std::uint64_t seed = 1;
   bool operator==(const HeapConfig&) const = default;
@@ -55,7 +45,7 @@ struct CraterConfig {
 struct InitialConfig {
   std::filesystem::path fluid = StillFlow::named.word;  // or of another start flow, or a path
   std::filesystem::path grains = {};                    // an absolute path; empty with `pour`
-  std::optional<PourConfig> pour = {};
+  std::optional<HeapConfig> pour = {};
   std::vector<HeapConfig> heaps = {};
   std::vector<CraterConfig> craters = {};
   std::uint64_t seed = 1;  // of the perturbation of "turbulent"

@@ -35,25 +35,15 @@ double poured_top(const std::vector<HeapConfig>& heaps, const std::array<double,
   return highest;
 }
 
-HeapConfig as_heap(const PourConfig& pour, const std::vector<SizeClass>& sizes) {
-  HeapConfig heap;
-  heap.shape = pour.shape == PourShape::bed ? HeapShape::bed : HeapShape::cone;
-  heap.centre = pour.centre;
-  heap.radius = pour.radius;
-  heap.sizes = sizes;
-  heap.drop_height = pour.drop_height;
-  heap.seed = pour.seed;
-  return heap;
-}
-
 std::vector<HeapConfig> poured_heaps(const Config& config) {
   const InitialConfig& initial = config.initial;
   if (!config.grains) return {};
   const std::vector<SizeClass> all = poured_sizes(*config.grains);
-  std::vector<HeapConfig> heaps = initial.heaps;
+  std::vector<HeapConfig> heaps = initial.pour ? std::vector{*initial.pour} : initial.heaps;
   for (std::size_t n = 0; n < heaps.size(); ++n) {
     HeapConfig& heap = heaps[n];
-    if (heap.name.empty()) heap.name = fmt::format("heap {}", n + 1);
+    heap.seed += static_cast<std::uint64_t>(initial.realisation - 1);
+    if (heap.name.empty() && !initial.pour) heap.name = fmt::format("heap {}", n + 1);
     const int kind = kind_of_name(*config.grains, heap.kind);
     for (SizeClass& size : heap.sizes) size.kind = std::max(kind, 0);
     if (!heap.sizes.empty()) continue;
@@ -61,8 +51,6 @@ std::vector<HeapConfig> poured_heaps(const Config& config) {
       return heap.kind.empty() || size.kind == kind;
     });
   }
-  if (initial.pour) heaps = {as_heap(*initial.pour, all)};
-  for (HeapConfig& heap : heaps) heap.seed += static_cast<std::uint64_t>(initial.realisation - 1);
   return heaps;
 }
 

@@ -17,10 +17,8 @@ double poured_height(const HeapConfig& heap, const std::array<double, 3>& domain
 /// Approximate height [m] of the highest grain of all heaps; those after a bed stand on it.
 double poured_top(const std::vector<HeapConfig>& heaps, const std::array<double, 3>& domain);
 
-/// What `pour` asks for as a heap of grains of `sizes`; it has no name.
-HeapConfig as_heap(const PourConfig& pour, const std::vector<SizeClass>& sizes);
-/// The heaps that a case pours, in their order, each with its name, its sizes and the seed of the
-/// case's realisation; empty: it pours none.
+/// The heaps that a case pours, in their order, each with its sizes, its name unless it is `pour`
+/// and the seed of the case's realisation; empty: it pours none.
 std::vector<HeapConfig> poured_heaps(const Config& config);
 /// Number of these grains.
 std::int64_t count_of(const std::vector<SizeClass>& sizes);

@@ -178,19 +178,29 @@ void add_initial(Sections& all) {
       "member of an ensemble: another packing, another instant of the flow");
 }
 
+/// Adds the keys that `pour` and [[initial.heap]] share; "": the default is that of the heap.
+template <class AddKey>
+void add_heap_keys(AddKey& key, const char* default_centre) {
+  using H = HeapConfig;
+  key("shape", &H::shape,
+      "a cone, a ridge across the whole channel, or a bed of equal depth over the whole floor, on "
+      "which the heaps after it stand");
+  key("centre", &H::centre, any, "m", "[x, z] of the axis of a cone; of a ridge x alone counts")
+      .by_default = default_centre;
+  key("radius", &H::radius, between(0, 1e6), "m",
+      "radius of the foot of a cone, half the width of a ridge; required for both");
+  key("drop_height", &H::drop_height, between(0, 1e6), "m",
+      "height of the lowest grain above the floor, or above the bed below the heap");
+  key("seed", &H::seed, "random seed of the order and the jitter of the grains");
+}
+
 void add_pour(Sections& all) {
   all.push_back({.name = "initial.grains"});  // to hold the next one: else a key
   Keys key(add(all, "initial.grains.pour",
-               "A loose cone or bed of the grains of `sizes`, of all kinds in random order, which "
-               "settles"),
+               "One loose heap or bed of the grains of `sizes`, of all kinds in random order, "
+               "which settles"),
            [](auto& c) { return &c.initial.pour; });
-  using P = PourConfig;
-  key("shape", &P::shape, "a cone, or a bed of equal depth over the whole floor");
-  key("centre", &P::centre, any, "m", "[x, z] of the cone's axis").by_default = "[Lx/5, Lz/2]";
-  key("radius", &P::radius, between(0, 1e6), "m", "radius of the cone's foot; required for a cone");
-  key("drop_height", &P::drop_height, between(0, 1e6), "m",
-      "height of the lowest grain above the floor");
-  key("seed", &P::seed, "random seed of the order and the jitter of the grains");
+  add_heap_keys(key, "[Lx/5, Lz/2]");
 }
 
 void add_heaps(Sections& all) {
@@ -202,18 +212,10 @@ void add_heaps(Sections& all) {
   auto key = repeated_keys(section, [](auto& c) { return &c.initial.heaps; });
   using H = HeapConfig;
   key("name", &H::name, at_most(60), "", "name in result files and pictures");
-  key("shape", &H::shape,
-      "a cone, a ridge across the whole channel, or a bed of equal depth over the whole floor, on "
-      "which the heaps after it stand");
-  key("centre", &H::centre, any, "m", "[x, z] of the axis of a cone; of a ridge x alone counts");
-  key("radius", &H::radius, between(0, 1e6), "m",
-      "radius of the foot of a cone, half the width of a ridge; required for both");
   key("kind", &H::kind, "name of the `[[grains.kind]]` of the heap; without it all kinds");
   key("sizes", &H::sizes, between(1e-9, 1e6), "m",
       "[[diameter, count], ...] of the heap; without it those of the kind, or of `[grains]`");
-  key("drop_height", &H::drop_height, between(0, 1e6), "m",
-      "height of the lowest grain above the floor, or above the bed below the heap");
-  key("seed", &H::seed, "random seed of the order and the jitter of the grains");
+  add_heap_keys(key, "");
 }
 
 void add_craters(Sections& all) {

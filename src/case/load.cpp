@@ -139,8 +139,8 @@ std::vector<SizeClass> sizes_of_start(const Config& config, const Starts& starts
 void settle(ConfigReader& reading, Config& config, const std::vector<SizeClass>& sizes, bool tell) {
   // The diameter d of a case is rounded, so that a few grains more or less have the same mesh.
   reading.settle_lengths(config, sizes.empty() ? 0 : rounded(mean_diameter(sizes), 3), tell);
-  std::optional<PourConfig>& pour = config.initial.pour;
-  if (pour && pour->shape == PourShape::cone && !reading.tree().find("initial.grains.pour.centre"))
+  std::optional<HeapConfig>& pour = config.initial.pour;
+  if (pour && pour->shape != HeapShape::bed && !reading.tree().find("initial.grains.pour.centre"))
     pour->centre = {config.size[0] / 5, config.size[2] / 2};
   if (reading.is_automatic("time.fluid_step") && !reading.is_bad("fluid"))
     config.time.fluid_step = chosen_fluid_step(config, sizes);

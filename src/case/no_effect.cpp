@@ -64,7 +64,7 @@ constexpr Need kNeeds[] = {
      [](const Config& c) { return c.grains->feed->amount == FeedAmount::given; },
      "must be absent with amount = \"as_lost\", as many as leave"},
     {"initial.grains.pour.centre", "initial.grains.pour.shape",
-     [](const Config& c) { return c.initial.pour->shape == PourShape::cone; },
+     [](const Config& c) { return c.initial.pour->shape != HeapShape::bed; },
      "must be absent with shape = \"bed\", which covers the floor"},
     {"output.fields_interval", "fluid", has_fluid, kWithoutFluid},
     {"output.dune_interval", "grains", has_grains, kWithoutGrains},

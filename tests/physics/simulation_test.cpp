@@ -179,7 +179,7 @@ TEST(Simulation, ANumberIsNeverGivenTwice) {
 TEST(Simulation, AWindowThatFollowsRefusesGrainsAtItsEdge) {
   const TemporaryFolder scratch;
   Config config = fed_config();
-  config.initial.pour->shape = PourShape::bed;  // its grains lie everywhere
+  config.initial.pour->shape = HeapShape::bed;  // its grains lie everywhere
   config.initial.pour->radius = 0;
   config.grains->sizes = {{2e-4, 3000}};
   config.grains->feed.reset();

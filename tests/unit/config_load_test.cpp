@@ -39,7 +39,7 @@ TEST(ConfigLoad, ReadsWhatIsWrittenAndKeepsOtherDefaults) {
   EXPECT_EQ(c.restart.keep, 3);
   ASSERT_TRUE(c.initial.pour.has_value());
   EXPECT_EQ(c.initial.pour->radius, 0.006);
-  EXPECT_EQ(c.initial.pour->seed, PourConfig{}.seed);
+  EXPECT_EQ(c.initial.pour->seed, HeapConfig{}.seed);
 }
 
 TEST(ConfigLoad, WallTakesTheGrainsMaterialUnlessItNamesItsOwn) {

@@ -102,7 +102,7 @@ TEST(RebuildRate, FollowsTheFastestGrains) {
 TEST(PackedGrains, TouchAsInAHeapAtRest) {
   for (const auto& sizes : {kSizes, std::vector<SizeClass>{{2e-4, 1000}}}) {
     const InitialGrains g = packed_grains(
-        {as_heap({.centre = {0.01, 0.006}, .radius = 0.003}, sizes)}, {0.02, 0.02, 0.012});
+        {{.centre = {0.01, 0.006}, .radius = 0.003, .sizes = sizes}}, {0.02, 0.02, 0.012});
     double touching = 0;
     for (std::size_t a = 0; a < g.size(); ++a) {
       EXPECT_GE(g.x[a].y, g.diameter[a] / 2);
@@ -205,10 +205,12 @@ TEST(Estimate, ATrialThatGoesWrongIsTimedAllTheSame) {
 
 TEST(Estimate, OfManyGrainsIsMoreThanOfFew) {
   const Config config = load_config(BARCHAN_SOURCE_DIR "/tests/support/small_dune.toml");
-  PourConfig pour = *config.initial.pour;
-  const auto few = packed_grains({as_heap(pour, {{2e-4, 100}})}, config.size);
-  pour.shape = PourShape::bed;
-  const auto many = packed_grains({as_heap(pour, {{2e-4, 5000}})}, config.size);
+  HeapConfig heap = *config.initial.pour;
+  heap.sizes = {{2e-4, 100}};
+  const auto few = packed_grains({heap}, config.size);
+  heap.shape = HeapShape::bed;
+  heap.sizes = {{2e-4, 5000}};
+  const auto many = packed_grains({heap}, config.size);
   EXPECT_GT(time_parts(config, many, 0.1).grain_step, 5 * time_parts(config, few, 0.1).grain_step);
 }
 

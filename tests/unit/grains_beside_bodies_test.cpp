@@ -7,7 +7,7 @@
 #include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
 #include "src/bodies/make_bodies.hpp"
-#include "src/case/heaps.hpp"
+#include "src/case/config.hpp"
 #include "src/coupling/state_checks.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
@@ -56,12 +56,16 @@ TEST(GrainsBesideBodies, AHeapIsPouredAroundAPost) {
   c.size = kSize;
   c.bodies = {post({0.01, 0.006}, 0.001)};
   const Bodies bodies = make_bodies(c.bodies, c.size);
-  for (const PourShape shape : {PourShape::cone, PourShape::bed}) {
-    const PourConfig pour{
-        .shape = shape, .centre = {0.01, 0.006}, .radius = 0.003, .drop_height = 5e-4, .seed = 3};
+  for (const HeapShape shape : {HeapShape::cone, HeapShape::bed}) {
+    const HeapConfig heap{.shape = shape,
+                          .centre = {0.01, 0.006},
+                          .radius = 0.003,
+                          .sizes = kSizes,
+                          .drop_height = 5e-4,
+                          .seed = 3};
     for (const bool packed : {false, true}) {
-      const InitialGrains g = packed ? packed_grains({as_heap(pour, kSizes)}, kSize, bodies)
-                                     : pour_grains({as_heap(pour, kSizes)}, kSize, bodies);
+      const InitialGrains g =
+          packed ? packed_grains({heap}, kSize, bodies) : pour_grains({heap}, kSize, bodies);
       ASSERT_EQ(g.size(), 1000u);
       std::size_t beside = 0;
       for (std::size_t n = 0; n < g.size(); ++n) {
@@ -69,13 +73,13 @@ TEST(GrainsBesideBodies, AHeapIsPouredAroundAPost) {
         EXPECT_GE(distance, (1 - 1e-12) * g.diameter[n] / 2);
         beside += distance < g.diameter[n] ? 1 : 0;
       }
-      EXPECT_GT(beside, shape == PourShape::cone ? 5u : 0u) << "it is to reach the post";
+      EXPECT_GT(beside, shape == HeapShape::cone ? 5u : 0u) << "it is to reach the post";
     }
   }
 }
 
 TEST(GrainsBesideBodies, APourWithoutBodiesStaysWhatItWas) {
-  const std::vector<HeapConfig> heaps{as_heap({.centre = {0.01, 0.006}, .radius = 0.003}, kSizes)};
+  const std::vector<HeapConfig> heaps{{.centre = {0.01, 0.006}, .radius = 0.003, .sizes = kSizes}};
   const InitialGrains plain = pour_grains(heaps, kSize), other = pour_grains(heaps, kSize, {});
   ASSERT_EQ(plain.size(), other.size());
   for (std::size_t n = 0; n < plain.size(); ++n) EXPECT_EQ(norm(plain.x[n] - other.x[n]), 0);

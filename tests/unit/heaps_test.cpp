@@ -9,6 +9,7 @@
 
 #include "src/app/info_path.hpp"
 #include "src/case/heaps.hpp"
+#include "src/case/load.hpp"
 #include "src/initial/crater.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
@@ -131,6 +132,25 @@ const std::string kTwo =
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.rfind(from), from.size(), to);
+}
+
+/// `pour` has the shapes of a heap, its place by default, and no name.
+TEST(Heaps, PourIsOneOfThem) {
+  const auto poured = [](const std::string& text) {
+    return poured_heaps(load_config_text(heaps_case(text), "case.toml"));
+  };
+  const auto pour = poured(
+      "[initial]\ngrains = { pour = { shape = \"ridge\", radius = 0.006, seed = 7 } }\n"
+      "realisation = 2\n");
+  const auto heap = poured(
+      "[initial]\nrealisation = 2\n[[initial.heap]]\nshape = \"ridge\"\ncentre = [0.02, 0.02]\n"
+      "radius = 0.006\nseed = 7\n");
+  ASSERT_EQ(heap.size(), 1u);
+  EXPECT_EQ(heap[0].name, "heap 1");
+  HeapConfig nameless = heap[0];
+  nameless.name.clear();
+  EXPECT_EQ(pour, std::vector{nameless});
+  EXPECT_EQ(pour[0].seed, 8u);
 }
 
 TEST(Heaps, MistakesAreToldAtTheirLine) {

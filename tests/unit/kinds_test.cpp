@@ -163,8 +163,8 @@ TEST(Kinds, SizesThatDifferMuchWantKindsOfTheirOwn) {
 }
 
 InitialGrains poured(const std::vector<SizeClass>& sizes) {
-  const PourConfig cone{.centre = {0.05, 0.02}, .radius = 4e-3};
-  return pour_grains({as_heap(cone, sizes)}, {0.1, 0.025, 0.04});
+  const HeapConfig cone{.centre = {0.05, 0.02}, .radius = 4e-3, .sizes = sizes};
+  return pour_grains({cone}, {0.1, 0.025, 0.04});
 }
 
 // Places are those of one kind; which grain is of which is random: 1000 of 2000 in either half,

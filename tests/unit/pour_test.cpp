@@ -8,22 +8,22 @@
 #include <numbers>
 #include <random>
 
+#include "src/case/config.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/overlaps.hpp"
 #include "src/initial/pour.hpp"
 #include "src/parallel/mirror.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-#include "src/case/heaps.hpp"
-
 namespace barchan {
 namespace {
 
 const std::vector<SizeClass> kSizes = {{1.5e-4, 50}, {2e-4, 900}, {2.5e-4, 50}};
-const PourConfig kPour{.centre = {0.01, 0.006}, .radius = 0.003, .drop_height = 0.0005, .seed = 3};
+const HeapConfig kPour{
+    .centre = {0.01, 0.006}, .radius = 0.003, .sizes = kSizes, .drop_height = 0.0005, .seed = 3};
 
 TEST(Pour, PlacesEveryGrainInsideTheConeWithoutOverlap) {
-  const InitialGrains g = pour_grains({as_heap(kPour, kSizes)}, {0.02, 0.02, 0.012});
+  const InitialGrains g = pour_grains({kPour}, {0.02, 0.02, 0.012});
   ASSERT_EQ(g.size(), 1000u);
   EXPECT_EQ(std::count(g.diameter.begin(), g.diameter.end(), 1.5e-4), 50);
   EXPECT_EQ(std::count(g.diameter.begin(), g.diameter.end(), 2.5e-4), 50);
@@ -40,7 +40,7 @@ TEST(Pour, PlacesEveryGrainInsideTheConeWithoutOverlap) {
 TEST(Pour, ABedCoversTheFloorEvenly) {
   const std::array<double, 3> size{0.006, 0.01, 0.004};
   const InitialGrains g =
-      pour_grains({as_heap({.shape = PourShape::bed, .drop_height = 0.001}, kSizes)}, size);
+      pour_grains({{.shape = HeapShape::bed, .sizes = kSizes, .drop_height = 0.001}}, size);
   ASSERT_EQ(g.size(), 1000u);
   std::array<int, 4> quarters{};
   const auto apart = [](double distance, double period) {
@@ -95,20 +95,19 @@ TEST(Pour, FewGrainsOfAWideFootTakeAsLittle) {
 
 TEST(Pour, TheSeedDecides) {
   const std::array<double, 3> size{0.02, 0.02, 0.012};
-  const InitialGrains a = pour_grains({as_heap(kPour, kSizes)}, size),
-                      b = pour_grains({as_heap(kPour, kSizes)}, size);
+  const InitialGrains a = pour_grains({kPour}, size), b = pour_grains({kPour}, size);
   EXPECT_EQ(a.diameter, b.diameter);
   EXPECT_EQ(a.x[500].x, b.x[500].x);
-  PourConfig other = kPour;
+  HeapConfig other = kPour;
   other.seed = 4;
-  EXPECT_NE(pour_grains({as_heap(other, kSizes)}, size).diameter, a.diameter);
+  EXPECT_NE(pour_grains({other}, size).diameter, a.diameter);
 }
 
 TEST(Pour, RefusesAConeThatDoesNotFit) {
-  EXPECT_THROW(pour_grains({as_heap(kPour, kSizes)}, {0.02, 0.001, 0.012}), std::runtime_error);
-  PourConfig edge = kPour;
+  EXPECT_THROW(pour_grains({kPour}, {0.02, 0.001, 0.012}), std::runtime_error);
+  HeapConfig edge = kPour;
   edge.centre[0] = 0.001;
-  EXPECT_THROW(pour_grains({as_heap(edge, kSizes)}, {0.02, 0.02, 0.012}), std::runtime_error);
+  EXPECT_THROW(pour_grains({edge}, {0.02, 0.02, 0.012}), std::runtime_error);
 }
 
 // --- Grains of a file in the domain of a case.
