@@ -22,12 +22,12 @@ enum class HeapShape { cone, ridge, bed };
 /// [initial] grains = { pour = {...} }, or one of several [[initial.heap]]: a jittered lattice that
 /// settles.
 struct HeapConfig {
-  std::string name;                   // in tables and pictures
+  std::string name = {};              // in tables and pictures
   HeapShape shape = HeapShape::cone;  // or a ridge across the channel, or a bed over the floor
   std::array<double, 2> centre{};     // x, z [m]; by default Lx/5, Lz/2 of `pour`
   double radius = 0;                  // of a cone's foot, half the width of a ridge's [m]
-  std::string kind;                   // a name of [[grains.kind]]; empty: all of them
-  std::vector<SizeClass> sizes;       // empty: grains.sizes, or of its kind
+  std::string kind = {};              // a name of [[grains.kind]]; empty: all of them
+  std::vector<SizeClass> sizes = {};  // empty: grains.sizes, or of its kind
   double drop_height = 0;             // lowest grain above what lies there [m]
   std::uint64_t seed = 1;
   bool operator==(const HeapConfig&) const = default;
