@@ -79,6 +79,7 @@ KindNumbers derive_kind(const Config& config, const KindConfig& kind,
                    : grains.ambient.value_or(AmbientConfig{0, 0});
   const double nu = liquid.kinematic_viscosity;
   const double gravity = std::hypot(grains.gravity[0], grains.gravity[1], grains.gravity[2]);
+  const double weight = std::abs(kind.density - liquid.density) * gravity;
   if (nu > 0 && kind.density > liquid.density) {
     const double ratio = kind.density / liquid.density, submerged = ratio - 1;
     n.fall_velocity = settling_velocity(n.d_mean, ratio, nu, gravity);
@@ -87,6 +88,10 @@ KindNumbers derive_kind(const Config& config, const KindConfig& kind,
       n.shields_threshold = soulsby_threshold(n.d_mean, submerged, gravity, nu);
     }
   }
+  n.impact_speed = std::max(n.fall_velocity, flow ? kFastestGrains * flow->bulk_velocity : 0);
+  if (grains.contact_model.is<LinearSpring>()) return n;
+  n.at_rest = overlap_at_rest(kLayersAtRest, n.d_mean, weight, kind.material);
+  n.at_impact = overlap_of_impact(n.d_mean, kind.density, n.impact_speed, kind.material);
   return n;
 }
 
@@ -155,6 +160,21 @@ double rayleigh_time(double diameter, double density, const Material& material) 
   const double shear_modulus = material.youngs_modulus / (2 * (1 + s));
   return std::numbers::pi * 0.5 * diameter * std::sqrt(density / shear_modulus) /
          (0.1631 * s + 0.8766);
+}
+
+double overlap_at_rest(int layers, double diameter, double weight, const Material& material) {
+  const double s = material.poisson_ratio;
+  return std::pow(
+      std::numbers::pi / 2 * layers * (1 - s * s) * weight * diameter / material.youngs_modulus,
+      2.0 / 3);
+}
+
+double overlap_of_impact(double diameter, double density, double speed, const Material& material) {
+  const double s = material.poisson_ratio;
+  const double mass = density * std::numbers::pi / 6 * std::pow(diameter, 3) / 2;
+  const double modulus = material.youngs_modulus / (2 * (1 - s * s)), radius = diameter / 4;
+  return std::pow(15.0 / 16 * mass * speed * speed / (modulus * std::sqrt(radius)), 2.0 / 5) /
+         diameter;
 }
 
 double linear_contact_time(double mass, double stiffness) {

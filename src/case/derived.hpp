@@ -23,6 +23,13 @@ double mean_diameter(const std::vector<SizeClass>& sizes);
 /// the time a surface wave takes over it. Li, Xu & Thornton (2005).
 double rayleigh_time(double diameter, double density, const Material& material);
 
+/// Overlap of the lowest pair of a chain of grains over their diameter, under the `weight` [N/m^3]
+/// of so many layers, without friction and dashpot: Hertz, (pi/2 n (1 - s^2) weight d / E)^(2/3).
+double overlap_at_rest(int layers, double diameter, double weight, const Material& material);
+/// Largest overlap of two equal grains that meet at a `speed` [m/s] over their diameter, without
+/// dashpot: Hertz, (15/16 m* v^2 / (E* sqrt(R*)))^(2/5) (Johnson 1985, eq. 11.23).
+double overlap_of_impact(double diameter, double density, double speed, const Material& material);
+
 /// Duration [s] of a contact of two spheres of a `mass` [kg] with a linear spring [N/m],
 /// pi sqrt(m / (2 k)), without damping.
 double linear_contact_time(double mass, double stiffness);
@@ -36,6 +43,11 @@ double bulk_velocity_of(double u_star, double delta, double viscosity);
 
 /// Fall velocity [m/s] of a lone sphere under Schiller & Naumann's drag.
 double settling_velocity(double diameter, double density_ratio, double viscosity, double gravity);
+
+/// Estimated speed of the fastest grains over the largest bulk velocity.
+inline constexpr double kFastestGrains = 0.4;
+/// Layers of the heap for which `check` gives the overlap at rest: those of the paper's dune.
+inline constexpr int kLayersAtRest = 15;
 
 struct FluidNumbers {
   std::int64_t cells = 0;
@@ -61,6 +73,9 @@ struct KindNumbers {
   double youngs_modulus = 0;                   // [Pa]
   double d_min = 0, d_mean = 0;                // smallest and mean diameter [m]; mean by number
   double rayleigh_min = 0, rayleigh_mean = 0;  // [s], of the smallest and the mean grain
+  double at_rest = 0;                          // overlap over d under kLayersAtRest, mean grain
+  double impact_speed = 0;                     // [m/s] of the fastest grains; 0: not known
+  double at_impact = 0;                        // overlap over d at that speed, mean grain
   double fall_velocity = 0;                    // [m/s] of the mean grain; 0 without a liquid
   double shields = 0;                          // u*^2 / ((s - 1) g d), mean grain; 0 without a flow
   double shields_threshold = 0;                // Soulsby & Whitehouse

@@ -50,6 +50,14 @@ void add_cells_against_grains(std::string& text, const GrainNumbers& n, Coupling
 void add_kind(std::string& text, const KindNumbers& n) {
   const std::string of = n.name.empty() ? "" : n.name + ": ";
   if (!of.empty()) line(text, "density", "{}{:.6g} kg/m3", of, n.density);
+  if (n.at_rest > 0) {
+    const std::string impact =
+        n.impact_speed > 0
+            ? fmt::format(", {:.2g} % in impacts at {:.2g} m/s", 100 * n.at_impact, n.impact_speed)
+            : "";
+    line(text, "overlap", "{}{:.2g} % under {} layers{} (docs/choosing.md: 2 % is good)", of,
+         100 * n.at_rest, kLayersAtRest, impact);
+  }
   if (n.fall_velocity > 0)
     line(text, "fall velocity", "{}{:.4g} m/s (mean grain alone)", of, n.fall_velocity);
   if (n.shields > 0) {

@@ -27,24 +27,17 @@ double rounded_down(double limit, const double (&mantissas)[N]) {
   return best / scale;
 }
 
-/// Overlap [m] of the lowest of n grains in a chain under their submerged weight: Hertz, as in
-/// docs/choosing.md.
-double static_overlap(int n, double d, double weight, const Material& material) {
-  const double s = material.poisson_ratio;
-  const double groups = std::numbers::pi / 2 * n * (1 - s * s) * weight * d;
-  return d * std::pow(groups / material.youngs_modulus, 2.0 / 3);
-}
-
 /// Longest stable step [s] of a grain that six others touch under the weight of 15 layers.
 double stable_step_in_bed(double d, double d_mean, double density, double weight,
                           const Material& material) {
-  constexpr int layers = 15, contacts = 6;
+  constexpr int contacts = 6;
   const Elastic elastic{.youngs_modulus = material.youngs_modulus,
                         .poisson_ratio = material.poisson_ratio};
   const HertzMindlin law =
       HertzMindlin::from({.a = elastic, .b = elastic, .restitution = material.restitution});
   const double mass = density * std::numbers::pi / 6 * d * d * d;
-  const ContactStiffness k = law(d / 4, mass / 2, static_overlap(layers, d_mean, weight, material));
+  const double overlap = d_mean * overlap_at_rest(kLayersAtRest, d_mean, weight, material);
+  const ContactStiffness k = law(d / 4, mass / 2, overlap);
   return stable_step(contacts * k.k_t, contacts * k.gamma_t, kSpinInertia * mass);
 }
 

@@ -2,6 +2,7 @@
 #include "src/case/derived.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +26,31 @@ const std::vector<SizeClass> table_2{
 TEST(Derived, RayleighTimesOfThePapersGrains) {
   EXPECT_NEAR(rayleigh_time(0.15e-3, 2500, Material{}), 9.444388e-6, 1e-12);
   EXPECT_NEAR(rayleigh_time(0.2e-3, 2500, Material{}), 1.259252e-5, 1e-11);
+}
+
+/// Force of Hertz between two spheres of the paper [N] at an overlap over the diameter.
+double hertz_force(double overlap, double d, const Material& m) {
+  const double modulus = m.youngs_modulus / (2 * (1 - m.poisson_ratio * m.poisson_ratio));
+  return 4.0 / 3 * modulus * std::sqrt(d / 4) * std::pow(overlap * d, 1.5);
+}
+
+TEST(Derived, OverlapAtRestCarriesTheLayersAbove) {
+  const double d = 0.2e-3, weight = 1500 * 9.81;
+  const double of_15 = 15 * weight * std::numbers::pi / 6 * d * d * d;
+  const double overlap = overlap_at_rest(15, d, weight, Material{});
+  EXPECT_NEAR(hertz_force(overlap, d, Material{}), of_15, 1e-12 * of_15);
+  EXPECT_NEAR(overlap, 5.0e-4, 0.2e-4);
+}
+
+/// Integrates the motion of two grains that meet, up to their largest overlap.
+TEST(Derived, OverlapOfAnImpactIsThatOfTheEquationOfMotion) {
+  const double d = 0.2e-3, speed = 0.112, mass = 2500 * std::numbers::pi / 6 * d * d * d / 2;
+  const Material soft{.youngs_modulus = 3.125e5};
+  const double dt = 1e-9;
+  double overlap = 0;  // [m]
+  for (double v = speed; v > 0; overlap += v * dt)
+    v -= hertz_force(overlap / d, d, soft) / mass * dt;
+  EXPECT_NEAR(overlap_of_impact(d, 2500, speed, soft), overlap / d, 1e-4 * overlap / d);
 }
 
 TEST(Derived, FallVelocitiesOfThePapersGrains) {
