@@ -91,7 +91,7 @@ KindNumbers derive_kind(const Config& config, const KindConfig& kind,
   n.impact_speed = std::max(n.fall_velocity, flow ? kFastestGrains * flow->bulk_velocity : 0);
   if (grains.contact_model.is<LinearSpring>()) return n;
   n.at_rest = overlap_at_rest(kLayersAtRest, n.d_mean, weight, kind.material);
-  n.at_impact = overlap_of_impact(n.d_mean, kind.density, n.impact_speed, kind.material);
+  n.at_impact = overlap_of_impact(kind.density, n.impact_speed, kind.material);
   return n;
 }
 
@@ -169,12 +169,11 @@ double overlap_at_rest(int layers, double diameter, double weight, const Materia
       2.0 / 3);
 }
 
-double overlap_of_impact(double diameter, double density, double speed, const Material& material) {
+double overlap_of_impact(double density, double speed, const Material& material) {
   const double s = material.poisson_ratio;
-  const double mass = density * std::numbers::pi / 6 * std::pow(diameter, 3) / 2;
-  const double modulus = material.youngs_modulus / (2 * (1 - s * s)), radius = diameter / 4;
-  return std::pow(15.0 / 16 * mass * speed * speed / (modulus * std::sqrt(radius)), 2.0 / 5) /
-         diameter;
+  return std::pow(
+      5 * std::numbers::pi / 16 * (1 - s * s) * density * speed * speed / material.youngs_modulus,
+      2.0 / 5);
 }
 
 double linear_contact_time(double mass, double stiffness) {

@@ -27,8 +27,8 @@ double rayleigh_time(double diameter, double density, const Material& material);
 /// of so many layers, without friction and dashpot: Hertz, (pi/2 n (1 - s^2) weight d / E)^(2/3).
 double overlap_at_rest(int layers, double diameter, double weight, const Material& material);
 /// Largest overlap of two equal grains that meet at a `speed` [m/s] over their diameter, without
-/// dashpot: Hertz, (15/16 m* v^2 / (E* sqrt(R*)))^(2/5) (Johnson 1985, eq. 11.23).
-double overlap_of_impact(double diameter, double density, double speed, const Material& material);
+/// dashpot: Hertz, (5 pi/16 (1 - s^2) density v^2 / E)^(2/5) (from Johnson 1985, eq. 11.23).
+double overlap_of_impact(double density, double speed, const Material& material);
 
 /// Duration [s] of a contact of two spheres of a `mass` [kg] with a linear spring [N/m],
 /// pi sqrt(m / (2 k)), without damping.

@@ -50,7 +50,7 @@ TEST(Derived, OverlapOfAnImpactIsThatOfTheEquationOfMotion) {
   double overlap = 0;  // [m]
   for (double v = speed; v > 0; overlap += v * dt)
     v -= hertz_force(overlap / d, d, soft) / mass * dt;
-  EXPECT_NEAR(overlap_of_impact(d, 2500, speed, soft), overlap / d, 1e-4 * overlap / d);
+  EXPECT_NEAR(overlap_of_impact(2500, speed, soft), overlap / d, 1e-4 * overlap / d);
 }
 
 TEST(Derived, FallVelocitiesOfThePapersGrains) {
