@@ -33,10 +33,10 @@ includes="$(grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"][^>"]+[
 check_rooms() {
   local from="${1#"$3"/}" to="${2#"$3"/}" order
   from=${from%%/*} to=${to%%/*}
-  order=$(printf ' %s ' "${@:4}")
+  order=" ${*:4} "
   if [[ $order != *" $from "* || $order != *" $to "* ]]; then
     complain "$1: $2: not in a folder that this script lists"
-  elif [[ $from != "$to" && $order != *" $to "*" $from "* ]]; then
+  elif [[ $from != "$to" && $order != *" $to "*"$from "* ]]; then
     complain "$1: $2 is in a folder further up; the order is: ${*:4}"
   fi
 }
@@ -67,13 +67,13 @@ circle="$(sed -n 's/^\(.*\):[0-9]* "\(.*\)"$/\1 \2/p' <<< "$includes" | { tsort 
   sed -n 's/^tsort: //p')"
 [ -z "$circle" ] || complain "headers include each other in a circle:" "$circle"
 
-while IFS= read -r -d '' file; do
-  lines="$(wc -l < "$file")"
+while read -r lines file; do
   limit=$max_lines
   case $file in src/* | kernels/*) limit=$max_lines_of_program ;; esac
   [ "$lines" -le "$limit" ] || complain "$file: $lines lines, more than $limit; split it by noun"
 done < <(find barchan src kernels tests perf python scripts packaging cmake -type f \( -name barchan -o \
-  -name '*.hpp' -o -name '*.cpp' -o -name '*.py' -o -name '*.sh' -o -name '*.cmake' \) -print0 2> /dev/null)
+  -name '*.hpp' -o -name '*.cpp' -o -name '*.py' -o -name '*.sh' -o -name '*.cmake' \) \
+  -exec wc -l {} + 2> /dev/null | grep -v ' total$')
 
 # Prints "lines class" for each class of src/: its header, and each source that defines members of it more than of
 # any other class.
