@@ -10,6 +10,7 @@
 #include "perf/cases.hpp"
 #include "perf/events.hpp"
 #include "perf/options.hpp"
+#include "src/parallel/start_mpi.hpp"
 
 namespace barchan {
 namespace {
@@ -63,7 +64,7 @@ int run_suite_or_say_why(int argc, char** argv) {
 }  // namespace barchan
 
 int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
+  barchan::start_mpi(&argc, &argv);
   int status = 0;
   {
     const Kokkos::ScopeGuard kokkos(argc, argv);

@@ -12,6 +12,7 @@
 #include "src/base/report.hpp"
 #include "src/case/load.hpp"
 #include "src/io/seal.hpp"
+#include "src/parallel/start_mpi.hpp"
 #include "src/restart/checkpoint.hpp"
 #include "src/run/simulation.hpp"
 #include "tests/fuzz/hdf5_files.hpp"
@@ -58,7 +59,7 @@ std::string valid_restart() {
 }  // namespace
 
 int LLVMFuzzerInitialize(int* argc, char*** argv) {
-  MPI_Init(argc, argv);
+  start_mpi(argc, argv);
   Kokkos::initialize(Kokkos::InitializationSettings().set_num_threads(1));
   std::atexit([] {
     Kokkos::finalize();
