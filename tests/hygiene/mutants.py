@@ -129,7 +129,8 @@ def build():
     environment = os.environ | {"GIT_CEILING_DIRECTORIES": str(WORK)}
     with (WORK / "build.log").open("w") as log:
         for command in (
-            ["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBARCHAN_ENABLE_BENCHMARKS=OFF"]
+            ["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBARCHAN_ENABLE_BENCHMARKS=OFF",
+             "-DBARCHAN_ENABLE_UNITY=ON"]
             + ([f"-DKokkos_DIR={found[1]}"] if found else []),
             ["cmake", "--build", BUILD, "--target", "unit_tests", "physics_tests", "mpi_tests"],
         ):
