@@ -57,7 +57,8 @@ double output_seconds(const Config& config, double n_grains, const PartSeconds& 
 /// Estimated speed of the fastest grains [m/s]: slower than the flow, else as they fall.
 double fastest_of(const SettledCase& the_case) {
   const Config& config = the_case.config;
-  if (the_case.numbers.fluid) return std::max(kFastestGrains * the_case.numbers.fluid->bulk_velocity, 1e-3);
+  if (the_case.numbers.fluid)
+    return std::max(kFastestGrains * the_case.numbers.fluid->bulk_velocity, 1e-3);
   double falls = 0;
   for (const KindNumbers& kind : the_case.numbers.grains->kinds)
     falls = std::max(falls, kind.fall_velocity);
