@@ -58,15 +58,15 @@ TEST(FlowSchedule, RampsFromWhatItWas) {
 TEST(FlowSchedule, AddsASineAndGoesOnFromIt) {
   const Schedule swings{
       {.velocity = 0.1, .amplitude = {0.2, -0.3}, .period = 4},
-      {.time = 5, .velocity = {0.5, 0}, .ramp = 2, .amplitude = {0.1, 0}, .period = 1}};
+      {.time = 5, .velocity = {0.5, 0}, .ramp = 2, .amplitude = {0.1, 0}, .period = 0.8}};
   const auto at = [&](double t) { return wanted_velocity(swings, {}, t); };
   expect_velocity(at(0), 0.1, 0);
   expect_velocity(at(0.5), 0.1 + 0.2 * std::numbers::sqrt2 / 2, -0.3 * std::numbers::sqrt2 / 2);
   expect_velocity(at(3), -0.1, 0.3);
-  // The sine is at its peak at 5 s: from there the ramp begins.
+  // The sine is at its peak at 5 s: from there the ramp begins, and a sine of its own.
   expect_velocity(at(5), 0.3, -0.3);
-  expect_velocity(at(5.25), 0.3 + 0.2 / 8 + 0.1, -0.3 + 0.3 / 8);
-  expect_velocity(at(8), 0.5, 0);
+  expect_velocity(at(5.2), 0.3 + 0.2 / 10 + 0.1, -0.3 + 0.3 / 10);
+  expect_velocity(at(8), 0.5 - 0.1, 0);
 }
 
 TEST(FlowSchedule, TheLargestSpeedSetsWhatFollows) {
