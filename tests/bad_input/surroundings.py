@@ -90,6 +90,7 @@ SCRIPTS = [
     study("a value, not a list", STUDY + "[vary]\ngrains.rolling_friction = 0.1\n", "must be a list"),
     study("like what is no name", STUDY + "[cases]\na.like = 3\n", "like must be the name of a case before it"),
     study("a line of cases without keys", STUDY + "[cases]\na = 3\n", "must have a line NAME = { key = value }"),
+    study("a dot in a name", STUDY + "[cases]\na-0.5 = { grains.restitution = 0.5 }\n", 'stands in quotes: "a-0.5"'),
     study("two cases of one name", STUDY + '[[case]]\nname = "a"\n' * 2, 'two cases are named "a"'),
     study("key without a value in the base case", STUDY + "[vary]\ngrains.density = [2500, 2600]\n",
           "grains.density has no value in the base case"),

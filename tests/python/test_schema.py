@@ -1,5 +1,6 @@
 """barchan keys --schema: JSON Schema of a case, which takes every case here and refuses mistakes."""
 
+import argparse
 import copy
 import json
 import os
@@ -11,9 +12,17 @@ import jsonschema
 import pytest
 from fake_runs import ROOT
 
+from barchan.studies.spec import load_case, merge, read_study
+
 PROGRAM = os.environ.get("BARCHAN_PROGRAM", "")
 pytestmark = pytest.mark.skipif(not PROGRAM, reason="needs the program, whose path BARCHAN_PROGRAM has")
-CASES = [path for path in sorted((ROOT / "configs").rglob("*.toml")) if "[study]" not in path.read_text()]
+FILES = sorted((ROOT / "configs").rglob("*.toml"))
+STUDIES = [path for path in FILES if "[study]" in path.read_text()]
+CASES = [path for path in FILES if path not in STUDIES]
+
+
+def named(paths):
+    return {"argvalues": paths, "ids": [str(path.relative_to(ROOT / "configs")) for path in paths]}
 
 
 @pytest.fixture(scope="module")
@@ -49,9 +58,19 @@ def changed(dotted, value):
     return case
 
 
-@pytest.mark.parametrize("path", CASES, ids=[str(path.relative_to(ROOT / "configs")) for path in CASES])
+@pytest.mark.parametrize("path", **named(CASES))
 def test_every_case_here_is_valid(valid, path):
     assert valid(load(path))
+
+
+@pytest.mark.parametrize("path", **named(STUDIES))
+def test_every_case_of_a_study_here_is_valid(valid, path):
+    study = read_study(path, argparse.Namespace(at_once=None, threads=None, out=None))
+    base = load_case(study.base)
+    assert study.cases
+    for case in study.cases:
+        values = tomllib.loads("\n".join(case.set_options()[1::2]))
+        assert valid(merge(base, values)), (case.name, values)
 
 
 def test_cases_that_tests_run_are_valid(valid):
