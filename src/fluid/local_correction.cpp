@@ -38,6 +38,7 @@ void LocalCorrection::update(const FaceVector& c, const Region& near, const Fiel
   const Kokkos::DefaultExecutionSpace space;
   for (Field* mask : {&mask_, &mask_1_, &mask_2_}) Kokkos::deep_copy(space, mask->storage, Real(0));
   c_ = c, near_ = &near, workspace_ = workspace;
+  bounds_ = near.columns().bounds();
   each_column("local: find columns", FindColumns{c, near.range().j1, kObstructedBelow, {mask_}});
   flat_halo_.fill(mask_);
   each_column("local: widen", WidenColumns{grid_.ny, {mask_}, {mask_1_}});
@@ -51,7 +52,7 @@ void LocalCorrection::relax(const Field& r, Field& z, bool forward) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (int n = 0; n < colours; ++n) {
       const int colour = forward ? n : colours - 1 - n;
-      if (grid_.ranks) halo_.fill(z);  // the columns of other ranks
+      if (grid_.ranks) halo_.fill_between_ranks(z, bounds_);
       each_column("local: relax", RelaxColumns{.equations = {grid_, c_},
                                                .height = {mask_1_},
                                                .pivot = pivot_,

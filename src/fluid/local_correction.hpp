@@ -39,7 +39,8 @@ class LocalCorrection {
   Halo halo_;
   FaceVector c_;
   const Region* near_ = nullptr;
-  Grid flat_;  // one row of cells
+  CellRange bounds_;  // of `near`
+  Grid flat_;         // one row of cells
   Halo flat_halo_;
   Field mask_, mask_1_, mask_2_;  // ColumnHeights: obstructed; one layer more; two
   Field pivot_, workspace_;

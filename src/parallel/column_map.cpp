@@ -124,6 +124,18 @@ ColumnMap ColumnMap::dilated(int by) const {
   return all;
 }
 
+CellRange ColumnMap::bounds() const {
+  CellRange found{.i0 = nx_, .i1 = 0, .j0 = 0, .j1 = top_, .k0 = nz_, .k1 = 0};
+  for (int k = 0; k < nz_; ++k) {
+    for (int i = 0; i < nx_; ++i) {
+      if (!has(i, k)) continue;
+      found.i0 = std::min(found.i0, i), found.i1 = std::max(found.i1, i + 1);
+      found.k0 = std::min(found.k0, k), found.k1 = k + 1;
+    }
+  }
+  return found;
+}
+
 std::vector<ColumnMap::Interval> ColumnMap::stretches_of_x(int apart) const {
   std::vector<std::uint8_t> any(static_cast<std::size_t>(nx_), 0);
   for (int k = 0; k < nz_; ++k) {

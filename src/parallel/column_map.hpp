@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/parallel/grid.hpp"
+#include "src/parallel/launch.hpp"
 #include "src/parallel/mirror.hpp"
 
 namespace barchan {
@@ -49,6 +50,8 @@ class ColumnMap {
   void set_top(int rows) { top_ = rows; }
   bool is_empty() const { return top_ == 0; }
   bool has(int i, int k) const { return on_[index(i, k)] != 0; }
+  /// Smallest range of cells of all ranks that holds the set.
+  CellRange bounds() const;
 
   /// Set with so many columns and rows more on all sides.
   ColumnMap dilated(int by) const;

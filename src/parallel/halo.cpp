@@ -101,6 +101,26 @@ void Halo::fill_with_walls(std::span<const FieldWithWalls> fields) const {
   }
 }
 
+void Halo::fill_between_ranks(const FieldRef& f, const CellRange& bounds) const {
+  const int nx = grid_.nx, nz = grid_.nz, rows = bounds.j1;
+  const int i0 = std::max(bounds.i0 - grid_.i_begin, 0),
+            k0 = std::max(bounds.k0 - grid_.k_begin, 0);
+  const int columns_x = std::min(bounds.i1 - grid_.i_begin, nx) - i0;
+  const int columns_z = std::min(bounds.k1 - grid_.k_begin, nz) - k0;
+  if (x_.is_cut() && columns_z > 0 && rows > 0) {
+    const BoxShape plane{.n = {rows, 1, columns_z}, .stride = {f.stride_y, 0, f.stride_z}};
+    const auto at = [&](int i) { return &f(i, 0, k0); };
+    exchange_planes<BoxCopy::unpack>(x_, plane, Planes<Real>{at(0), at(nx - 1)},
+                                     Planes<Real>{at(-1), at(nx)});
+  }
+  if (z_.is_cut() && columns_x > 0 && rows > 0) {
+    const BoxShape plane{.n = {columns_x, rows, 1}, .stride = {1, f.stride_y, 0}};
+    const auto at = [&](int k) { return &f(i0, 0, k); };
+    exchange_planes<BoxCopy::unpack>(z_, plane, Planes<Real>{at(0), at(nz - 1)},
+                                     Planes<Real>{at(-1), at(nz)});
+  }
+}
+
 void Halo::scatter_add(const CellSums& sums) const {
   using Sum = std::int64_t;
   const int nx = grid_.nx, ny = grid_.ny, nz = grid_.nz, n_sums = sums.extent_int(1);

@@ -9,6 +9,7 @@
 #include "kernels/fluid/boundary_values.hpp"
 #include "src/parallel/exchange.hpp"
 #include "src/parallel/grid.hpp"
+#include "src/parallel/launch.hpp"
 
 namespace barchan {
 
@@ -38,6 +39,11 @@ class Halo {
   void fill(Fields&... f) const {
     fill_with_walls(std::array{FieldWithWalls{.f = f, .ny = grid_.ny, .walls = {}}...});
   }
+
+  /// Makes those ghosts valid that are copies of other ranks' cells within `bounds`, a range of the
+  /// cells of all ranks; corners and what is periodic on this rank are left alone. All ranks call
+  /// it together, with the same bounds.
+  void fill_between_ranks(const FieldRef& f, const CellRange& bounds) const;
 
   /// Adjoint of fill(): adds the sums in the ghosts to those of the cells that they are copies of,
   /// first along x, then along z. They are integers, so the order does not matter. Does nothing

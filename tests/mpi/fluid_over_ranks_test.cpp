@@ -85,6 +85,35 @@ TEST(HaloOverRanks, GhostsAreTheCellsAcross) {
   }
 }
 
+/// Ghosts that hold cells of other ranks within bounds are filled, and no others.
+TEST(HaloOverRanks, BetweenRanksWithinBounds) {
+  const CellRange bounds{3, 12, 0, 5, 1, 8};
+  for (const int along_x : test::shapes(kCells)) {
+    SCOPED_TRACE(along_x);
+    const SharedGrid grid = awkward(along_x);
+    const Grid& mine = grid.mine;
+    Field f("f", mine), whole("f", grid.whole);
+    grid.set(whole, f, [](int i, int j, int k) { return noise(i, j, k); });
+    Halo(mine).fill_between_ranks(f, bounds);
+    const auto got = test::to_host(f);
+    const bool cut_x = mine.ranks && mine.ranks->along_x().count > 1;
+    const bool cut_z = mine.ranks && mine.ranks->along_z().count > 1;
+    const int nx = kCells[0], nz = kCells[2];
+    for (int k = -1; k <= mine.nz; ++k)
+      for (int j = 0; j < mine.ny; ++j)
+        for (int i = -1; i <= mine.nx; ++i) {
+          const bool beside_x = i < 0 || i == mine.nx, beside_z = k < 0 || k == mine.nz;
+          if (!beside_x && !beside_z) continue;
+          const int x = i + mine.i_begin, z = k + mine.k_begin;
+          const bool in_x = x >= bounds.i0 && x < bounds.i1, in_z = z >= bounds.k0 && z < bounds.k1;
+          const bool filled =
+              j < bounds.j1 && beside_x != beside_z && (beside_x ? cut_x && in_z : cut_z && in_x);
+          ASSERT_EQ(got(i, j, k), filled ? noise((x + nx) % nx, j, (z + nz) % nz) : 0)
+              << i << " " << j << " " << k;
+        }
+  }
+}
+
 TEST(PoissonOverRanks, AsOnOneRank) {
   for (const int along_x : test::shapes(kCells)) {
     SCOPED_TRACE(along_x);

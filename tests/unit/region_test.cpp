@@ -62,6 +62,14 @@ TEST(ColumnMap, BlocksAndUnions) {
   EXPECT_EQ(both.top(), 3);
 }
 
+TEST(ColumnMap, BoundsHoldEveryColumn) {
+  const Grid grid = grid_of({11, 5, 9});
+  const CellRange bounds = map_of(grid, {{5, 7}, {9, 2}}, 2).bounds();
+  EXPECT_EQ(bounds.i0, 5), EXPECT_EQ(bounds.i1, 10);
+  EXPECT_EQ(bounds.j0, 0), EXPECT_EQ(bounds.j1, 2);
+  EXPECT_EQ(bounds.k0, 2), EXPECT_EQ(bounds.k1, 8);
+}
+
 TEST(ColumnMap, StretchesOfXMayGoAcrossTheEnd) {
   const Grid grid = grid_of({20, 5, 3});
   const auto stretches =
