@@ -25,8 +25,7 @@ View view_of(const std::string& label, const std::array<int, 3>& extents) {
 /// Lines of x where they are: in a field, or one after the other.
 RealLines lines_in_field(const Grid& grid) {
   const Field like("fft: field", grid);
-  return {grid.nx,       grid.ny,       grid.nz,
-          like.stride_y, like.stride_z, like.origin - like.storage.data()};
+  return {grid.nx, grid.ny, grid.nz, like.stride_y, like.stride_z};
 }
 RealLines lines_in_a_row(const std::array<int, 3>& e) {
   return {e[0], e[1], e[2], e[0], static_cast<std::ptrdiff_t>(e[0]) * e[1]};
@@ -92,9 +91,9 @@ PlaneFft::PlaneFft(const Grid& grid, EvenExtension even)
   spectrum_ = view_of<Spectrum>("fft: spectrum", columns_.joined_extents());
 }
 
-PlaneFft::Stages PlaneFft::stages(const Spectrum& modes) const {
-  const Spectrum& planes = columns_.is_trivial() ? modes : modes_of_planes_;
-  return {planes_.is_trivial() ? planes : modes_of_rows_, planes};
+ModeGroups PlaneFft::groups() const {
+  return columns_.is_trivial() ? lines_.groups()
+                               : plane_by_plane(spectrum_.extent_int(0), spectrum_.extent_int(2));
 }
 
 StridedArray PlaneFft::lines_of_x(const Field& f) const {
@@ -102,27 +101,37 @@ StridedArray PlaneFft::lines_of_x(const Field& f) const {
   return contiguous(lines_of_x_.data(), with(rows_.joined_extents(), 0, period_x_));
 }
 
-void PlaneFft::forward(const Field& in, const Spectrum& out) const {
-  const Stages stage = stages(out);
+void PlaneFft::solve(const Field& in, const ColumnSolve& columns, Field& out) const {
+  forward(in);
+  if (columns_.is_trivial()) {
+    lines_.solve_z(modes_of_planes().data(), columns);
+  } else {
+    lines_.forward_z(modes_of_planes_.data());
+    columns_.join(array(modes_of_planes_), array(spectrum_));
+    solve_columns(columns, spectrum_.data());
+    columns_.cut(array(spectrum_), array(modes_of_planes_));
+    lines_.backward_z(modes_of_planes_.data());
+  }
+  backward(out);
+}
+
+/// From cells to whole lines of z.
+void PlaneFft::forward(const Field& in) const {
   const StridedArray lines = lines_of_x(in);
   if (!rows_.is_trivial()) rows_.join(inside(in), lines);
   if (even_.x) {
     copy_lines(rows_.is_trivial() ? inside(in) : lines, lines, rows_.joined_extents(), true);
   }
-  lines_.forward_x(lines.data, stage.rows.data());
-  if (!planes_.is_trivial()) planes_.join(array(stage.rows), array(stage.planes));
-  if (even_.z) mirror_planes(stage.planes);
-  lines_.forward_z(stage.planes.data());
-  if (!columns_.is_trivial()) columns_.join(array(stage.planes), array(out));
+  lines_.forward_x(lines.data, modes_of_rows().data());
+  if (!planes_.is_trivial()) planes_.join(array(modes_of_rows()), array(modes_of_planes()));
+  if (even_.z) mirror_planes(modes_of_planes());
 }
 
-void PlaneFft::backward(const Spectrum& in, Field& out) const {
-  const Stages stage = stages(in);
-  if (!columns_.is_trivial()) columns_.cut(array(in), array(stage.planes));
-  lines_.backward_z(stage.planes.data());
-  if (!planes_.is_trivial()) planes_.cut(array(stage.planes), array(stage.rows));
+/// From lines of z to cells.
+void PlaneFft::backward(Field& out) const {
+  if (!planes_.is_trivial()) planes_.cut(array(modes_of_planes()), array(modes_of_rows()));
   const StridedArray lines = lines_of_x(out);
-  lines_.backward_x(stage.rows.data(), lines.data);
+  lines_.backward_x(modes_of_rows().data(), lines.data);
   if (!rows_.is_trivial()) {
     rows_.cut(lines, inside(out));
   } else if (even_.x) {

@@ -17,9 +17,9 @@ struct EvenExtension {
   bool operator==(const EvenExtension&) const = default;
 };
 
-/// Both directions without normalisation: backward(forward(f)) = period_x period_z f. All ranks
-/// call together. With even the field and its image are one period, at twice the cost: the
-/// image is made where a line is whole, and dropped there again.
+/// Transforms around a solve that couples rows alone. All ranks call together. With even the field
+/// and its image are one period, at twice the cost: the image is made where a line is whole, and
+/// dropped there again.
 ///
 /// Over ranks the lines of x, then of z, then the rows are made whole, three transposes in each
 /// direction:
@@ -29,24 +29,30 @@ class PlaneFft {
  public:
   explicit PlaneFft(const Grid& grid, EvenExtension even = {});
 
-  /// Room for one spectrum, for those who transform there and straight back.
-  const Spectrum& spectrum() const { return spectrum_; }
   /// Cells of all ranks in a period along x and z.
   int period_x() const { return period_x_; }
   int period_z() const { return period_z_; }
   /// Wave number of the first mode of this rank along x and z.
   int first_mode_x() const { return first_x_; }
   int first_mode_z() const { return first_z_; }
-  void forward(const Field& in, const Spectrum& out) const;
-  /// Destroys `in`. Ghosts of `out` are left alone.
-  void backward(const Spectrum& in, Field& out) const;
+  /// Order of the columns of modes that solve() wants.
+  ModeGroups groups() const;
+  /// Transforms, solves and transforms back, without normalisation: what leaves the modes alone
+  /// multiplies with period_x period_z. in and out may be the same field; ghosts of `out` are left
+  /// alone.
+  void solve(const Field& in, const ColumnSolve& columns, Field& out) const;
 
  private:
-  /// The spectra between the transposes; where one has nothing to do, two of them are one.
-  struct Stages {
-    Spectrum rows, planes;  // (all kx, y', z), (kx', y', all z)
-  };
-  Stages stages(const Spectrum& modes) const;
+  void forward(const Field& in) const;
+  void backward(Field& out) const;
+  /// Spectra between the transposes, (kx', y', all z) and (all kx, y', z); where a transpose has
+  /// nothing to do, two of them are one.
+  const Spectrum& modes_of_planes() const {
+    return columns_.is_trivial() ? spectrum_ : modes_of_planes_;
+  }
+  const Spectrum& modes_of_rows() const {
+    return planes_.is_trivial() ? modes_of_planes() : modes_of_rows_;
+  }
   StridedArray lines_of_x(const Field& f) const;
 
   EvenExtension even_;

@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "kernels/math/vec3.hpp"
+#include "kernels/fluid/tridiagonal.hpp"
+#include "src/parallel/launch.hpp"
 
 namespace barchan {
 
@@ -13,7 +14,6 @@ namespace barchan {
 struct RealLines {
   int n = 0, rows = 0, planes = 0;
   std::ptrdiff_t row_stride = 0, plane_stride = 0;
-  std::ptrdiff_t first = 0;  // where the first starts in its array
 
   std::ptrdiff_t modes_per_plane() const { return std::ptrdiff_t{rows} * (n / 2 + 1); }
 };
@@ -22,6 +22,25 @@ struct RealLines {
 struct ComplexLines {
   int n = 0, lines = 0, rows = 0;
 };
+
+/// Order of modes (lines, y, planes), each plane a group.
+constexpr ModeGroups plane_by_plane(int lines, int planes) { return {lines, 1, lines, planes}; }
+
+/// Solves all columns of modes that lie group by group in the order of their pivots.
+inline void solve_columns(const ColumnSolve& columns, Kokkos::complex<Real>* modes) {
+  const int n = columns.pivot.extent_int(0), groups = columns.pivot.extent_int(2);
+  const std::ptrdiff_t size = std::ptrdiff_t{n} * columns.ny;
+  // On a host all columns of a group, side by side in vectors; on a device one column.
+  Kokkos::parallel_for(
+      "poisson: columns", items(kOnHost ? groups : groups * n), KOKKOS_LAMBDA(int index) {
+        if (kOnHost) {
+          columns.solve(modes + size * index, 0, n, index);
+        } else {
+          const int c = index % n, group = index / n;
+          columns.solve(modes + size * group, c, c + 1, group);
+        }
+      });
+}
 
 /// Without normalisation. Plans do not depend on timing, so that two runs give the same bits.
 class LineFft {
@@ -38,6 +57,9 @@ class LineFft {
   /// Transform along z, in place.
   void forward_z(Kokkos::complex<Real>* modes) const;
   void backward_z(Kokkos::complex<Real>* modes) const;
+  /// Both, with a solve of all columns in between, in groups of this order.
+  void solve_z(Kokkos::complex<Real>* modes, const ColumnSolve& columns) const;
+  ModeGroups groups() const;
 
  private:
   struct Library;  // plans and work space

@@ -101,4 +101,12 @@ void LineFft::backward_z(Kokkos::complex<Real>* modes) const {
         "transform along z");
 }
 
+void LineFft::solve_z(Kokkos::complex<Real>* modes, const ColumnSolve& columns) const {
+  forward_z(modes);
+  solve_columns(columns, modes);
+  backward_z(modes);
+}
+
+ModeGroups LineFft::groups() const { return plane_by_plane(z_.lines, z_.n); }
+
 }  // namespace barchan

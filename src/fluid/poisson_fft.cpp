@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "src/parallel/launch.hpp"
 #include "src/parallel/mirror.hpp"
 
 namespace barchan {
@@ -23,14 +22,15 @@ PoissonFft::PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Re
                        Real diffusion)
     : fft_(std::move(fft)) {
   const int ny = grid.ny;
-  columns_.modes = fft_->spectrum();
+  const ModeGroups groups = fft_->groups();
+  const int n = groups.columns();
   columns_.ny = ny;
-  const int n_modes = columns_.modes.extent_int(0), planes = columns_.modes.extent_int(2);
   const bool has_constant = fft_->first_mode_x() == 0 && fft_->first_mode_z() == 0;
-  columns_.singular = mass == 0 && has_constant && columns_.modes.span() > 0;
+  columns_.singular = mass == 0 && has_constant && groups.count() > 0;
   columns_.weight = Kokkos::View<Real*>("poisson: weight", ny);
   columns_.coupling = Kokkos::View<Real*>("poisson: coupling", ny + 1);
-  columns_.pivot = Kokkos::View<Real***, Kokkos::LayoutLeft>("poisson: pivot", n_modes, ny, planes);
+  columns_.pivot =
+      Kokkos::View<Real***, Kokkos::LayoutLeft>("poisson: pivot", n, ny, groups.count());
   const auto rows = grid.on_host();
   const auto weight = mirror(columns_.weight);
   const auto coupling = mirror(columns_.coupling);
@@ -39,15 +39,16 @@ PoissonFft::PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Re
   for (int j = 0; j < ny; ++j) weight(j) = rows.dy(j) / (Real(period_x) * period_z);
   for (int j = 1; j < ny; ++j) coupling(j) = diffusion / rows.dy_centre(j);
 
-  for (int kz = 0; kz < planes; ++kz) {
-    for (int kx = 0; kx < n_modes; ++kx) {
+  for (int group = 0; group < groups.count(); ++group) {
+    for (int c = 0; c < n; ++c) {
+      const int kx = groups.kx(c, group), kz = groups.kz(c, group);
       const Real lambda = eigenvalue(fft_->first_mode_x() + kx, period_x, grid.dx) +
                           eigenvalue(fft_->first_mode_z() + kz, period_z, grid.dz);
       for (int j = 0; j < ny; ++j) {
-        const Real below = j > 0 ? coupling(j) * coupling(j) * pivot(kx, j - 1, kz) : 0;
+        const Real below = j > 0 ? coupling(j) * coupling(j) * pivot(c, j - 1, group) : 0;
         const Real diagonal =
             (mass + diffusion * lambda) * rows.dy(j) + coupling(j) + coupling(j + 1);
-        pivot(kx, j, kz) = 1 / (diagonal - below);
+        pivot(c, j, group) = kx < groups.all_lines ? 1 / (diagonal - below) : 0;
       }
     }
   }
@@ -58,22 +59,6 @@ PoissonFft::PoissonFft(const Grid& grid, std::shared_ptr<const PlaneFft> fft, Re
   Kokkos::deep_copy(columns_.pivot, pivot);
 }
 
-void PoissonFft::solve(const Field& in, Field& out) const {
-  fft_->forward(in, columns_.modes);
-  const int n_modes = columns_.modes.extent_int(0);
-  const int planes = n_modes > 0 ? columns_.modes.extent_int(2) : 0;
-  const ColumnSolve columns = columns_;
-  // On a host all columns of a plane kz, side by side in vectors; on a device one column.
-  Kokkos::parallel_for(
-      "poisson: columns", items(kOnHost ? planes : planes * n_modes), KOKKOS_LAMBDA(int index) {
-        if (kOnHost) {
-          columns.solve(0, n_modes, index);
-        } else {
-          const int kx = index % n_modes;
-          columns.solve(kx, kx + 1, index / n_modes);
-        }
-      });
-  fft_->backward(columns_.modes, out);
-}
+void PoissonFft::solve(const Field& in, Field& out) const { fft_->solve(in, columns_, out); }
 
 }  // namespace barchan
