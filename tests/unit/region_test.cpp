@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 #include <string>
 #include <vector>
@@ -65,9 +66,8 @@ TEST(ColumnMap, BlocksAndUnions) {
 TEST(ColumnMap, BoundsHoldEveryColumn) {
   const Grid grid = grid_of({11, 5, 9});
   const CellRange bounds = map_of(grid, {{5, 7}, {9, 2}}, 2).bounds();
-  EXPECT_EQ(bounds.i0, 5), EXPECT_EQ(bounds.i1, 10);
-  EXPECT_EQ(bounds.j0, 0), EXPECT_EQ(bounds.j1, 2);
-  EXPECT_EQ(bounds.k0, 2), EXPECT_EQ(bounds.k1, 8);
+  const std::array<int, 6> found{bounds.i0, bounds.i1, bounds.j0, bounds.j1, bounds.k0, bounds.k1};
+  EXPECT_EQ(found, (std::array<int, 6>{5, 10, 0, 2, 2, 8}));
 }
 
 TEST(ColumnMap, StretchesOfXMayGoAcrossTheEnd) {
