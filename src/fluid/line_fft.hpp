@@ -62,6 +62,12 @@ class LineFft {
   ModeGroups groups() const;
 
  private:
+  void solve_in_turn(Kokkos::complex<Real>* modes, const ColumnSolve& columns) const {
+    forward_z(modes);
+    solve_columns(columns, modes);
+    backward_z(modes);
+  }
+
   struct Library;  // plans and work space
 
   RealLines x_;

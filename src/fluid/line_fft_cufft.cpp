@@ -102,9 +102,7 @@ void LineFft::backward_z(Kokkos::complex<Real>* modes) const {
 }
 
 void LineFft::solve_z(Kokkos::complex<Real>* modes, const ColumnSolve& columns) const {
-  forward_z(modes);
-  solve_columns(columns, modes);
-  backward_z(modes);
+  solve_in_turn(modes, columns);
 }
 
 ModeGroups LineFft::groups() const { return plane_by_plane(z_.lines, z_.n); }

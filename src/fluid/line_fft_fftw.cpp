@@ -43,7 +43,7 @@ void share_out(const char* label, int n, int threads, const Work& work) {
   });
 }
 
-/// Copies of up to kLinesOfZ modes beside each other.
+/// Copies up to kLinesOfZ modes that lie beside each other. That many are whole vectors.
 void copy_modes(const Complex* from, int n, Complex* to) {
   if (n == kLinesOfZ) {
     std::copy_n(from, kLinesOfZ, to);
@@ -171,11 +171,7 @@ void LineFft::backward_z(Complex* modes) const {
 }
 
 void LineFft::solve_z(Complex* modes, const ColumnSolve& columns) const {
-  if (!kOnHost) {  // columns lie as on a device
-    forward_z(modes);
-    solve_columns(columns, modes);
-    return backward_z(modes);
-  }
+  if (!kOnHost) return solve_in_turn(modes, columns);  // columns lie as on a device
   const Library& my = *library_;
   const std::size_t row = my.z_row();
   share_out("fft: along z and columns", my.blocks, my.threads, [&](int block, int thread) {

@@ -48,6 +48,32 @@ void fill_uncut(const Grid& grid, std::span<const FieldWithWalls> fields) {
   }
 }
 
+/// Indices [begin, begin + n) along one direction.
+struct Stretch {
+  int begin, n;
+};
+/// Part on this rank of the cells [begin, end) of all ranks; `first` is this rank's first of n.
+Stretch part_here(int begin, int end, int first, int n) {
+  const int here = std::max(begin - first, 0);
+  return {here, std::max(std::min(end - first, n) - here, 0)};
+}
+
+/// Fills ghosts along a cut direction from the ranks beside this one.
+void exchange_x(const Grid& grid, const HaloBuffers& buffers, const FieldRef& f, const Stretch& y,
+                const Stretch& z) {
+  const BoxShape plane{.n = {y.n, 1, z.n}, .stride = {f.stride_y, 0, f.stride_z}};
+  const auto at = [&](int i) { return &f(i, y.begin, z.begin); };
+  exchange_planes<BoxCopy::unpack>(buffers, plane, Planes<Real>{at(0), at(grid.nx - 1)},
+                                   Planes<Real>{at(-1), at(grid.nx)});
+}
+void exchange_z(const Grid& grid, const HaloBuffers& buffers, const FieldRef& f, const Stretch& x,
+                const Stretch& y) {
+  const BoxShape plane{.n = {x.n, y.n, 1}, .stride = {1, f.stride_y, 0}};
+  const auto at = [&](int k) { return &f(x.begin, y.begin, k); };
+  exchange_planes<BoxCopy::unpack>(buffers, plane, Planes<Real>{at(0), at(grid.nz - 1)},
+                                   Planes<Real>{at(-1), at(grid.nz)});
+}
+
 void fill_x(const Grid& grid, const HaloBuffers& buffers, const FieldRef& f) {
   const int nx = grid.nx, ny = grid.ny, nz = grid.nz;
   if (!buffers.is_cut()) {  // j is the inner index
@@ -58,10 +84,7 @@ void fill_x(const Grid& grid, const HaloBuffers& buffers, const FieldRef& f) {
         });
     return;
   }
-  const BoxShape plane{.n = {ny + 2, 1, nz}, .stride = {f.stride_y, 0, f.stride_z}};
-  const auto at = [&](int i) { return &f(i, -1, 0); };
-  exchange_planes<BoxCopy::unpack>(buffers, plane, Planes<Real>{at(0), at(nx - 1)},
-                                   Planes<Real>{at(-1), at(nx)});
+  exchange_x(grid, buffers, f, {-1, ny + 2}, {0, nz});
 }
 
 void fill_z(const Grid& grid, const HaloBuffers& buffers, const FieldRef& f) {
@@ -74,10 +97,7 @@ void fill_z(const Grid& grid, const HaloBuffers& buffers, const FieldRef& f) {
         });
     return;
   }
-  const BoxShape plane{.n = {nx + 2, ny + 2, 1}, .stride = {1, f.stride_y, 0}};
-  const auto at = [&](int k) { return &f(-1, -1, k); };
-  exchange_planes<BoxCopy::unpack>(buffers, plane, Planes<Real>{at(0), at(nz - 1)},
-                                   Planes<Real>{at(-1), at(nz)});
+  exchange_z(grid, buffers, f, {-1, nx + 2}, {-1, ny + 2});
 }
 
 }  // namespace
@@ -102,23 +122,11 @@ void Halo::fill_with_walls(std::span<const FieldWithWalls> fields) const {
 }
 
 void Halo::fill_between_ranks(const FieldRef& f, const CellRange& bounds) const {
-  const int nx = grid_.nx, nz = grid_.nz, rows = bounds.j1;
-  const int i0 = std::max(bounds.i0 - grid_.i_begin, 0),
-            k0 = std::max(bounds.k0 - grid_.k_begin, 0);
-  const int columns_x = std::min(bounds.i1 - grid_.i_begin, nx) - i0;
-  const int columns_z = std::min(bounds.k1 - grid_.k_begin, nz) - k0;
-  if (x_.is_cut() && columns_z > 0 && rows > 0) {
-    const BoxShape plane{.n = {rows, 1, columns_z}, .stride = {f.stride_y, 0, f.stride_z}};
-    const auto at = [&](int i) { return &f(i, 0, k0); };
-    exchange_planes<BoxCopy::unpack>(x_, plane, Planes<Real>{at(0), at(nx - 1)},
-                                     Planes<Real>{at(-1), at(nx)});
-  }
-  if (z_.is_cut() && columns_x > 0 && rows > 0) {
-    const BoxShape plane{.n = {columns_x, rows, 1}, .stride = {1, f.stride_y, 0}};
-    const auto at = [&](int k) { return &f(i0, 0, k); };
-    exchange_planes<BoxCopy::unpack>(z_, plane, Planes<Real>{at(0), at(nz - 1)},
-                                     Planes<Real>{at(-1), at(nz)});
-  }
+  const Stretch x = part_here(bounds.i0, bounds.i1, grid_.i_begin, grid_.nx);
+  const Stretch z = part_here(bounds.k0, bounds.k1, grid_.k_begin, grid_.nz);
+  const Stretch y{bounds.j0, bounds.j1 - bounds.j0};
+  if (x_.is_cut() && y.n > 0 && z.n > 0) exchange_x(grid_, x_, f, y, z);
+  if (z_.is_cut() && y.n > 0 && x.n > 0) exchange_z(grid_, z_, f, x, y);
 }
 
 void Halo::scatter_add(const CellSums& sums) const {

@@ -249,9 +249,10 @@ def check_kind(value, section, path):
             raise StudyError(f"{path}: {section} must be a section, [{section}]")
         if section == "cases" and not all(isinstance(one, dict) for one in value.values()):
             raise StudyError(f"{path}: [cases] must have a line NAME = {{ key = value }} for each")
-        for name, keys in value.items() if section == "cases" else ():
-            if cut := next((key for key in keys if key.isdigit()), None):
-                raise StudyError(f'{path}: [cases] a name with a dot stands in quotes: "{name}.{cut}"')
+        named = value.items() if section == "cases" else ()
+        cut = [f"{name}.{key}" for name, keys in named for key in keys if key.isdigit()]
+        if cut:
+            raise StudyError(f'{path}: [cases] a name with a dot stands in quotes: "{cut[0]}"')
     elif not isinstance(value, list) or not all(isinstance(one, dict) for one in value):
         raise StudyError(f"{path}: case must be given as sections [[case]], one for each")
     else:
