@@ -43,7 +43,8 @@ KOKKOS_FORCEINLINE_FUNCTION Real damping_ratio(Real restitution) {
 struct ContactMaterial {
   Elastic a, b;
   Real restitution = 1;
-  Real linear_stiffness = 0;  // [N/m]
+  Real linear_stiffness = 0;    // [N/m]
+  Real tangential_damping = 1;  // factor on the tangential dashpot
 };
 
 /// Elastic normal force, tangential spring and dashpots of one contact.
@@ -74,13 +75,15 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr bool in_contact(const Law& law, Real r_eff
 struct HertzMindlin {
   static constexpr Named named{"hertz_mindlin",
                                "Hertz (1881), Mindlin (1949), Tsuji et al. (1992)"};
-  Real e_eff = 0, g_eff = 0;  // [Pa]
-  Real damping = 0;           // damping_ratio(e)
+  Real e_eff = 0, g_eff = 0;        // [Pa]
+  Real damping = 0, damping_t = 0;  // damping_ratio(e); that of the tangential dashpot
 
   static HertzMindlin from(const ContactMaterial& m) {
+    const Real ratio = damping_ratio(m.restitution);
     return {.e_eff = effective_youngs_modulus(m.a, m.b),
             .g_eff = effective_shear_modulus(m.a, m.b),
-            .damping = damping_ratio(m.restitution)};
+            .damping = ratio,
+            .damping_t = m.tangential_damping * ratio};
   }
   KOKKOS_FORCEINLINE_FUNCTION ContactStiffness operator()(Real r_eff, Real m_eff,
                                                           Real delta_n) const {
@@ -90,7 +93,7 @@ struct HertzMindlin {
     return {.elastic = Real(4) / 3 * e_eff * a * delta_n,
             .k_t = 8 * g_eff * a,
             .gamma_n = two_root_5_6 * damping * Kokkos::sqrt(2 * e_eff) * root,
-            .gamma_t = two_root_5_6 * damping * Kokkos::sqrt(8 * g_eff) * root};
+            .gamma_t = two_root_5_6 * damping_t * Kokkos::sqrt(8 * g_eff) * root};
   }
 };
 
@@ -98,18 +101,19 @@ struct HertzMindlin {
 /// gamma = 2 damping sqrt(m_eff k) (Schaefer, Dippel & Wolf 1996).
 struct LinearSpring {
   static constexpr Named named{"linear", "springs of `linear_stiffness`, Schaefer et al. (1996)"};
-  Real k_n = 0;      // [N/m]
-  Real damping = 0;  // damping_ratio(e)
+  Real k_n = 0;                     // [N/m]
+  Real damping = 0, damping_t = 0;  // as in HertzMindlin
 
   static LinearSpring from(const ContactMaterial& m) {
-    return {.k_n = m.linear_stiffness, .damping = damping_ratio(m.restitution)};
+    const Real ratio = damping_ratio(m.restitution);
+    return {.k_n = m.linear_stiffness, .damping = ratio, .damping_t = m.tangential_damping * ratio};
   }
   KOKKOS_FORCEINLINE_FUNCTION ContactStiffness operator()(Real, Real m_eff, Real delta_n) const {
     const Real k_t = Real(2) / 7 * k_n;
     return {.elastic = k_n * delta_n,
             .k_t = k_t,
             .gamma_n = 2 * damping * Kokkos::sqrt(m_eff * k_n),
-            .gamma_t = 2 * damping * Kokkos::sqrt(m_eff * k_t)};
+            .gamma_t = 2 * damping_t * Kokkos::sqrt(m_eff * k_t)};
   }
 };
 

@@ -73,6 +73,10 @@ void add_grains(Sections& all) {
   key("rolling_theta_m", &G::rolling_theta_m, between(1e-9, 1e6), "rad",
       "angle of incipient rolling of the model \"theta_m\"");
   key("contact_model", &G::contact_model, "law of the forces in a contact");
+  key("tangential_damping", &G::tangential_damping, between(0, 1), "",
+      "factor on the dashpots along contacts, which limit the grain step; 0: none, as LIGGGHTS "
+      "with "
+      "tangential_damping off");
   key("linear_stiffness", &G::linear_stiffness, between(0, 1e30), "N/m",
       "spring stiffness; required with `contact_model` \"linear\"");
   key("sizes", &G::sizes, between(1e-9, 1e6), "m",

@@ -29,12 +29,14 @@ double rounded_down(double limit, const double (&mantissas)[N]) {
 
 /// Longest stable step [s] of a grain that six others touch under the weight of 15 layers.
 double stable_step_in_bed(double d, double d_mean, double density, double weight,
-                          const Material& material) {
+                          const Material& material, double tangential_damping) {
   constexpr int contacts = 6;
   const Elastic elastic{.youngs_modulus = material.youngs_modulus,
                         .poisson_ratio = material.poisson_ratio};
-  const HertzMindlin law =
-      HertzMindlin::from({.a = elastic, .b = elastic, .restitution = material.restitution});
+  const HertzMindlin law = HertzMindlin::from({.a = elastic,
+                                               .b = elastic,
+                                               .restitution = material.restitution,
+                                               .tangential_damping = tangential_damping});
   const double mass = density * std::numbers::pi / 6 * d * d * d;
   const double overlap = d_mean * overlap_at_rest(kLayersAtRest, d_mean, weight, material);
   const ContactStiffness k = law(d / 4, mass / 2, overlap);
@@ -57,7 +59,7 @@ double limit_of(const SizeClass& size, double d_mean, const Config& config) {
   const double weight = std::abs(kind.density - around) * gravity;
   if (weight == 0 || kind.material.sliding_friction == 0) return rayleigh;
   return std::min(rayleigh, 0.9 * stable_step_in_bed(size.diameter, d_mean, kind.density, weight,
-                                                     kind.material));
+                                                     kind.material, grains.tangential_damping));
 }
 
 double grain_step_limit(const Config& config, const std::vector<SizeClass>& sizes) {

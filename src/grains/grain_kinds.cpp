@@ -14,7 +14,8 @@ ContactMaterial contact_material(const GrainConfig& config, const Material& a, c
   return {.a = {.youngs_modulus = a.youngs_modulus, .poisson_ratio = a.poisson_ratio},
           .b = {.youngs_modulus = b.youngs_modulus, .poisson_ratio = b.poisson_ratio},
           .restitution = contact.restitution,
-          .linear_stiffness = config.linear_stiffness};
+          .linear_stiffness = config.linear_stiffness,
+          .tangential_damping = config.tangential_damping};
 }
 
 Friction friction_of(const Material& m, CoulombLimit limit) {

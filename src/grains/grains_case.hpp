@@ -82,8 +82,9 @@ struct GrainConfig {
   RollingModel rolling_model = RollingModel::of<Epsd2>();
   double rolling_theta_m = 0.1;  // [rad], angle of incipient rolling of the theta_m model (A13)
   ContactModel contact_model = ContactModel::of<HertzMindlin>();
-  double linear_stiffness = 0;   // [N/m], contact_model = "linear" only, then required
-  std::vector<SizeClass> sizes;  // for `pour`; otherwise the initial file decides
+  double tangential_damping = 1;  // factor on the dashpots along contacts
+  double linear_stiffness = 0;    // [N/m], contact_model = "linear" only, then required
+  std::vector<SizeClass> sizes;   // for `pour`; otherwise the initial file decides
   bool frozen = false;
   GrainBoundaryX boundary_x = GrainBoundaryX::exit;
   GrainBoundaryZ boundary_z = GrainBoundaryZ::periodic;

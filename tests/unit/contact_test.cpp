@@ -137,6 +137,23 @@ TEST(ContactLaw, DashpotsBelongToTheirSprings) {
   EXPECT_NEAR(k.k_t / k_n, 6 * law(0.3).g_eff / law(0.3).e_eff, 1e-12);  // Mindlin over Hertz
 }
 
+TEST(ContactLaw, TangentialDampingIsAFactorOnItsDashpotAlone) {
+  ContactMaterial m{.a = {5e6, 0.45}, .b = {5e6, 0.45}, .restitution = 0.3, .linear_stiffness = 9};
+  const auto compare = [&]<class Law>(Law) {
+    m.tangential_damping = 1;
+    const ContactStiffness whole = Law::from(m)(kRadius / 2, 1e-8, 1e-6);
+    m.tangential_damping = 0.25;
+    const ContactStiffness quarter = Law::from(m)(kRadius / 2, 1e-8, 1e-6);
+    EXPECT_GT(whole.gamma_t, 0);
+    EXPECT_DOUBLE_EQ(quarter.gamma_t, whole.gamma_t / 4);
+    EXPECT_EQ(quarter.gamma_n, whole.gamma_n);
+    EXPECT_EQ(quarter.k_t, whole.k_t);
+    EXPECT_EQ(quarter.elastic, whole.elastic);
+  };
+  compare(HertzMindlin{});
+  compare(LinearSpring{});
+}
+
 ContactPair sliding_pair(Real slip) {
   return {.normal = {0, 1, 0},
           .delta_n = 1e-6,
@@ -256,7 +273,7 @@ TEST(Rolling, ConstantTorqueOpposesAndAllVanishWithoutFriction) {
 }
 
 TEST(LinearSpring, DeliversTheRestitution) {
-  const LinearSpring spring{.k_n = 100, .damping = damping_ratio(0.5)};
+  const auto spring = LinearSpring::from({.restitution = 0.5, .linear_stiffness = 100});
   const Real m = 1e-8, dt = 1e-10;
   Real x = 0, v = 0.1;
   do {
@@ -271,7 +288,8 @@ TEST(LinearSpring, DeliversTheRestitution) {
 // that springs with k_t = 2/7 k_n swing with one period. Both dashpots have the same damping ratio.
 TEST(LinearSpring, SwingsAcrossAsItSwingsAlong) {
   const Real damping = damping_ratio(0.5), m = 1e-8;
-  const ContactStiffness k = LinearSpring{.k_n = 100, .damping = damping}(0, m, 1);  // at 1 m
+  const auto spring = LinearSpring::from({.restitution = 0.5, .linear_stiffness = 100});
+  const ContactStiffness k = spring(0, m, 1);  // at 1 m
   EXPECT_NEAR(k.k_t / (Real(2) / 7 * m) / (k.elastic / m), 1, 1e-14);
   EXPECT_NEAR(k.gamma_n / (2 * std::sqrt(m * k.elastic)), damping, 1e-14);
   EXPECT_NEAR(k.gamma_t / (2 * std::sqrt(m * k.k_t)), damping, 1e-14);
