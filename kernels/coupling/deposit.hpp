@@ -106,7 +106,7 @@ struct DepositGrains {
   Deposits deposits;
   int n = 0;  // number of all grains
 
-  using Cache = DepositCache<(grains_per_item > 1 ? 8 : 1)>;
+  using Cache = DepositCache<(grains_per_item > 1 ? 32 : 1)>;
   static constexpr int items_for(int n) { return (n + grains_per_item - 1) / grains_per_item; }
   KOKKOS_FUNCTION void operator()(int item) const {
     Cache cache(exchange.stencil.grid, deposits);
@@ -147,28 +147,32 @@ struct DepositGrains {
     const Real rows_dt = of_grain.rows_dt(exchange.stencil.grid, g, u);
     const Real limited_x = beta_dt * u.x_faces.limiter(K),
                limited_z = beta_dt * u.z_faces.limiter(K);
+    const int main_x = u.x_faces.main_side(), main_z = u.z_faces.main_side();
     for (int r = 0; r < rows.n; ++r) {
       const int j = rows.row[r];
       const Real w = rows.weight(r);
       const Real C_j = rows_dt * interlayer_drag_below(rows, j);
       cache.at({u.i, j, u.k}).impulse_y += deposits.impulse.encode(w * impulse.y);
-      for (int side = 0; side < 2; ++side) {
-        const Real c_x = u.x_faces.weight(side), c_z = u.z_faces.weight(side);
-        if (c_x > 0) {
-          const Real faster = rows_dt * (u.x[side][r] - u.mean_of_x[side]) +
-                              limited_x * (u.mean_of_x[side] - u.mean_x);
-          CellDeposit& cell = cache.at(exchange.x_face(u, side, j));
-          cell.interlayer_drag_x += deposits.interlayer_drag.encode(c_x * C_j);
-          cell.impulse_x += deposits.impulse.encode(w * c_x * (impulse.x + faster));
-        }
-        if (c_z > 0) {
-          const Real faster = rows_dt * (u.z[side][r] - u.mean_of_z[side]) +
-                              limited_z * (u.mean_of_z[side] - u.mean_z);
-          CellDeposit& cell = cache.at(exchange.z_face(u, side, j));
-          cell.interlayer_drag_z += deposits.interlayer_drag.encode(c_z * C_j);
-          cell.impulse_z += deposits.impulse.encode(w * c_z * (impulse.z + faster));
-        }
-      }
+      const auto along_x = [&](int side) {
+        const Real c = u.x_faces.weight(side);
+        if (c == 0) return;
+        const Real faster = rows_dt * (u.x[side][r] - u.mean_of_x[side]) +
+                            limited_x * (u.mean_of_x[side] - u.mean_x);
+        CellDeposit& cell = cache.at(exchange.x_face(u, side, j));
+        cell.interlayer_drag_x += deposits.interlayer_drag.encode(c * C_j);
+        cell.impulse_x += deposits.impulse.encode(w * c * (impulse.x + faster));
+      };
+      const auto along_z = [&](int side) {
+        const Real c = u.z_faces.weight(side);
+        if (c == 0) return;
+        const Real faster = rows_dt * (u.z[side][r] - u.mean_of_z[side]) +
+                            limited_z * (u.mean_of_z[side] - u.mean_z);
+        CellDeposit& cell = cache.at(exchange.z_face(u, side, j));
+        cell.interlayer_drag_z += deposits.interlayer_drag.encode(c * C_j);
+        cell.impulse_z += deposits.impulse.encode(w * c * (impulse.z + faster));
+      };
+      along_x(main_x), along_x(1 - main_x);
+      along_z(main_z), along_z(1 - main_z);
     }
   }
 };

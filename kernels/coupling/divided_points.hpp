@@ -64,4 +64,30 @@ KOKKOS_INLINE_FUNCTION constexpr DividedSets divided_sets() {
   return sets;
 }
 
+/// The points at the heights [first, last), counted upwards: a set, its share of all points, and
+/// the mean offset.
+struct PointsBetween {
+  struct Points {
+    PointSet set = 0;
+    Real weight = 0, mean_offset = 0;
+  };
+  Points heights[kDividedOffsets + 1][kDividedOffsets + 1];  // by first and last
+};
+KOKKOS_INLINE_FUNCTION constexpr PointsBetween points_between() {
+  constexpr int upwards[kDividedOffsets] = {6, 2, 8, 4, 0, 3, 7, 1, 5};  // of divided_offset
+  const DividedSets sets = divided_sets();
+  PointsBetween between;
+  for (int first = 0; first < kDividedOffsets; ++first) {
+    Real sum = 0;
+    for (int last = first; last < kDividedOffsets; ++last) {
+      const PointSet next = sets.y[upwards[last]];
+      sum += Kokkos::popcount(next) * divided_offset(upwards[last], false);
+      const PointSet set = between.heights[first][last].set | next;
+      const int count = Kokkos::popcount(set);
+      between.heights[first][last + 1] = {set, Real(count) / kDividedPoints, sum / count};
+    }
+  }
+  return between;
+}
+
 }  // namespace barchan

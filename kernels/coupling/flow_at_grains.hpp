@@ -52,18 +52,21 @@ struct RawFraction {
 
 /// Flow at each grain now.
 struct FlowAtGrains {
-  Kokkos::View<Vec3*> u;         // [m/s], as the drag feels it
-  Kokkos::View<Vec3*> du_dt;     // change of u over the last step [m/s^2], interpolated as u
-  Kokkos::View<Vec3*> u_grad_u;  // convective acceleration at the centre [m/s^2]
-  Kokkos::View<Vec3*> pressure;  // force of its gradient on a volume [N/m^3]; zero where off
-  Kokkos::View<Vec3*> stress;    // force of the stress on a volume [N/m^3]; zero where off
-  Kokkos::View<Real*> alpha_l;   // fraction that the drag law reads: with layers the mean over
-                                 // its cells before the smoothing, else alpha_f
-  Kokkos::View<Real*> alpha_o;   // fluid fraction that the other grains leave in its cells
-  Kokkos::View<Real*> slip;      // slip that the law sees [m/s]
-  Kokkos::View<Real*> factor;    // factor on the law's beta, whose drag is along u - u_p
+  Kokkos::View<Vec3*> u;            // [m/s], as the drag feels it
+  Kokkos::View<Vec3*> du_dt;        // change of u over the last step [m/s^2], interpolated as u
+  Kokkos::View<Vec3*> u_grad_u;     // convective acceleration at the centre [m/s^2]
+  Kokkos::View<Vec3*> vorticity{};  // [1/s]; with layers the mean over its rows; empty: not read;
+                                    // else it lies where GatherShear then puts its result
+  Kokkos::View<Vec3*> pressure;     // force of its gradient on a volume [N/m^3]; zero where off
+  Kokkos::View<Vec3*> stress;       // force of the stress on a volume [N/m^3]; zero where off
+  Kokkos::View<Real*> alpha_l;      // fraction that the drag law reads: with layers the mean over
+                                    // its cells before the smoothing, else alpha_f
+  Kokkos::View<Real*> alpha_o;      // fluid fraction that the other grains leave in its cells
+  Kokkos::View<Real*> slip;         // slip that the law sees [m/s]
+  Kokkos::View<Real*> factor;       // factor on the law's beta, whose drag is along u - u_p
   Kokkos::View<Real*> solid_per_fluid;  // largest of its cells and of its momentum cells
 
+  KOKKOS_FORCEINLINE_FUNCTION bool has_vorticity() const { return vorticity.extent(0) > 0; }
   /// Sets the slip for a scheme that knows no neighbours; call it after u is set.
   KOKKOS_FORCEINLINE_FUNCTION void set_whole_slip(int g, const Vec3& u_p) const {
     alpha_o(g) = 1;
@@ -89,7 +92,8 @@ struct AtCentres {
   }
 };
 
-/// Velocity, its rate of change, convection and fluid fraction at the grains' centres, trilinear.
+/// Velocity, its rate of change and curl, convection and fluid fraction at the grains' centres,
+/// trilinear.
 struct FlowAtCentres {
   GridRef grid;
   PeriodicBox box;
@@ -102,6 +106,7 @@ struct FlowAtCentres {
     flow.u(g) = interpolate_faces(u, at);
     flow.du_dt(g) = interpolate_faces(du_dt, at);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
+    if (flow.has_vorticity()) flow.vorticity(g) = interpolate_curl(u, grid, at);
     flow.alpha_l(g) = interpolate_cell(alpha_f, at);
     flow.set_whole_slip(g, grains(g).u);
   }
@@ -163,9 +168,9 @@ struct FlowOverCells {
   }
 };
 
-/// Flow in the layers that a grain lies in: velocity along the floor and its rate of change.
-/// Vertical velocity, convection and fluid fraction are those at its centre; the force densities
-/// are means over its cells.
+/// Flow in the layers that a grain lies in: velocity along the floor, its rate of change,
+/// vorticity. Vertical velocity, convection and fluid fraction are those at its centre; the force
+/// densities are means over its cells.
 struct LayeredFlow {
   FlowOverCells over_cells;
   PeriodicBox box;
@@ -183,6 +188,7 @@ struct LayeredFlow {
     flow.du_dt(g) = of_rows(du_dt, rows, at, dense);
     flow.u_grad_u(g) = interpolate_faces(u_grad_u, at);
     set_slip(g, grain.u, at);
+    if (flow.has_vorticity()) flow.vorticity(g) = vorticity_of_rows(rows, at);
     if (!oversubscribed) return;
     flow.solid_per_fluid(g) =
         Kokkos::max(flow.solid_per_fluid(g), in_momentum_cells(rows, GrainColumn(at, dense)));
@@ -232,6 +238,17 @@ struct LayeredFlow {
                                       const PointStencil& at, Real solid_per_fluid) const {
     const LayerVelocity v(rows, at, f, solid_per_fluid);
     return {v.mean_x, interpolate(f.y, at.centres, at.y_face), v.mean_z};
+  }
+  /// Mean over the parts of a grain in its rows, each at its mean height.
+  KOKKOS_INLINE_FUNCTION Vec3 vorticity_of_rows(const GrainRows& rows,
+                                                const PointStencil& at) const {
+    const GridRef& grid = over_cells.stencil.grid;
+    Vec3 mean;
+    for (int q = 0; q < rows.n; ++q) {
+      const HeightStencil height(grid, rows.height(grid, q), rows.row[q]);
+      mean += rows.weight(q) * interpolate_curl(u, grid, at, height);
+    }
+    return mean;
   }
 };
 

@@ -43,7 +43,7 @@ struct GatherFluid {
   ExchangeOnGrains exchange;
 
   KOKKOS_FUNCTION void operator()(int g) const {
-    const GrainKinematics grain = grains(g);
+    const GrainKinematics& grain = grains(g);
     const Real volume = sphere_volume(grain.r);
     const Real beta = drag_coefficient(g, grain);
     const Real m_added = Real(forces.added_mass) * sphere_added_mass(rho_f, volume);

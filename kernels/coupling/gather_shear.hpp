@@ -10,21 +10,17 @@ namespace barchan {
 template <class Law>
 struct GatherShear {
   Law law;
-  GridRef grid;
-  PeriodicBox box;
-  ConstFaceRef u;
   Real rho_f = 0, mu_f = 0;
   bool lift = false, torque = false;
-  bool floor = false;   // no slip at y = 0
-  bool layers = false;  // each part of a grain feels the vorticity of its row
+  bool floor = false;  // no slip at y = 0
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow_at;
   FluidOnGrains on_grains;
   ExchangeOnGrains exchange;
 
   KOKKOS_FUNCTION void operator()(int g) const {
-    const GrainKinematics grain = grains(g);
-    const Vec3 vorticity = layers ? over_rows(grain) : at_height(grain, grain.x.y);
+    const GrainKinematics& grain = grains(g);
+    const Vec3 vorticity = flow_at.vorticity(g);
     const Real alpha = limited_fraction(flow_at.alpha_o(g));
     if (lift) {
       const Vec3 force = lift_on(grain, on_grains.u_f(g) - grain.u, vorticity, alpha);
@@ -40,17 +36,6 @@ struct GatherShear {
   }
 
  private:
-  KOKKOS_INLINE_FUNCTION Vec3 at_height(const GrainKinematics& grain, Real y) const {
-    return interpolate_curl(u, grid, PointStencil(grid, box, {grain.x.x, y, grain.x.z}));
-  }
-  /// Mean over the parts of a grain in its rows, each at its mean height.
-  KOKKOS_INLINE_FUNCTION Vec3 over_rows(const GrainKinematics& grain) const {
-    const GrainRows rows(grid, grain.x.y, grain.r);
-    Vec3 mean;
-    for (int q = 0; q < rows.n; ++q)
-      mean += rows.weight(q) * at_height(grain, rows.height(grid, q));
-    return mean;
-  }
   /// Lift [N] at the slip that the drag sees. Its ratio to the drag is that of a lone grain.
   KOKKOS_INLINE_FUNCTION Vec3 lift_on(const GrainKinematics& grain, const Vec3& slip,
                                       const Vec3& vorticity, Real alpha) const {

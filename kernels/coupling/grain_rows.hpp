@@ -27,22 +27,19 @@ struct GrainRows {
   KOKKOS_INLINE_FUNCTION GrainRows(const GridRef& grid, Real y, Real r) {
     const Real low = y - kOuterShell * r, high = y + kOuterShell * r;
     const int own = grid.row_of(mirrored_inside(grid, y));
-    const int lowest = grid.row_near(low, own), highest = grid.row_near(high, own);
-    if (low >= 0 && high <= grid.ly && highest - lowest < kFew) {
-      in_few(grid, y, r, lowest, own, highest);
+    if (low >= grid.y_face(Kokkos::max(own - 1, 0)) &&
+        high < grid.y_face(Kokkos::min(own + 2, grid.ny))) {
+      const int lower = heights_below(grid.y_face(own), y, r);
+      const int upper = heights_below(grid.y_face(own + 1), y, r);
+      put(grid, own, y, r, lower, upper);
+      put(grid, Kokkos::max(own - 1, 0), y, r, 0, lower);
+      put(grid, Kokkos::min(own + 1, grid.ny - 1), y, r, upper, kDividedOffsets);
     } else {
       one_by_one(grid, y, r, own);
     }
-    for (int q = 0; q < n; ++q) {
-      const Real height = sum_[q] / Kokkos::popcount(points[q]) - grid.y_centre(row[q]);
-      over_lower[q] = height / grid.dy_centre(row[q]);
-      over_upper[q] = height / grid.dy_centre(row[q] + 1);
-    }
   }
   /// Share of the grain in its q-th row; the shares add up to one.
-  KOKKOS_INLINE_FUNCTION Real weight(int q) const {
-    return Real(Kokkos::popcount(points[q])) / kDividedPoints;
-  }
+  KOKKOS_INLINE_FUNCTION Real weight(int q) const { return weight_[q]; }
   /// Mean height of the points in the q-th row [m].
   KOKKOS_INLINE_FUNCTION Real height(const GridRef& grid, int q) const {
     return grid.y_centre(row[q]) + over_lower[q] * grid.dy_centre(row[q]);
@@ -54,56 +51,52 @@ struct GrainRows {
   }
 
  private:
-  static constexpr int kFew = 4;
-
-  /// Fills in a grain between floor and lid that lies in a few rows.
-  KOKKOS_INLINE_FUNCTION void in_few(const GridRef& grid, Real y, Real r, int lowest, int own,
-                                     int highest) {
-    Real at[kDividedOffsets];
-    int row_of[kDividedOffsets];
-    for (int q = 0; q < kDividedOffsets; ++q) {
-      at[q] = y + r * divided_offset(q, false);
-      row_of[q] = lowest;
-    }
-    for (int j = lowest + 1; j <= highest; ++j) {
-      const Real face = grid.y_face(j);
-      for (int q = 0; q < kDividedOffsets; ++q) row_of[q] += at[q] >= face ? 1 : 0;
-    }
-    add_row(own, at, row_of);
-    for (int j = lowest; j <= highest; ++j)
-      if (j != own) add_row(j, at, row_of);
+  /// Number of the heights of points that are below a face.
+  KOKKOS_FORCEINLINE_FUNCTION static int heights_below(Real face, Real y, Real r) {
+    int number = 0;
+    for (int q = 0; q < kDividedOffsets; ++q)
+      number += y + r * divided_offset(q, false) < face ? 1 : 0;
+    return number;
   }
-  KOKKOS_FORCEINLINE_FUNCTION void add_row(int j, const Real (&at)[kDividedOffsets],
-                                           const int (&row_of)[kDividedOffsets]) {
-    constexpr DividedSets sets = divided_sets();
-    PointSet set = 0;
-    Real sum = 0;
-    for (int q = 0; q < kDividedOffsets; ++q) {
-      const bool here = row_of[q] == j;
-      set |= here ? sets.y[q] : 0;
-      sum += here ? Kokkos::popcount(sets.y[q]) * at[q] : 0;
-    }
-    if (set == 0) return;
-    row[n] = j, points[n] = set, sum_[n++] = sum;
+  /// Adds row j with the points at the heights [first, last), unless there are none: without a
+  /// branch, whose outcome would be as good as random.
+  KOKKOS_FORCEINLINE_FUNCTION void put(const GridRef& grid, int j, Real y, Real r, int first,
+                                       int last) {
+    static constexpr PointsBetween between = points_between();
+    const PointsBetween::Points& points_of_row = between.heights[first][last];
+    points[n] = points_of_row.set;
+    set(grid, n, j, points_of_row.weight, y + r * points_of_row.mean_offset);
+    n += points_of_row.set != 0 ? 1 : 0;
   }
+  KOKKOS_FORCEINLINE_FUNCTION void set(const GridRef& grid, int q, int j, Real weight,
+                                       Real height) {
+    const Real above_middle = height - grid.y_centre(j);
+    row[q] = j, weight_[q] = weight;
+    over_lower[q] = above_middle / grid.dy_centre(j);
+    over_upper[q] = above_middle / grid.dy_centre(j + 1);
+  }
+  /// Fills in any grain. Points beyond the floor or the lid are mirrored back.
   KOKKOS_INLINE_FUNCTION void one_by_one(const GridRef& grid, Real y, Real r, int own) {
     constexpr DividedSets sets = divided_sets();
-    for (int q = 0; q < kDividedOffsets; ++q) {
-      const Real at = y + r * divided_offset(q, false), inside = mirrored_inside(grid, at);
-      if (inside != at) outside |= sets.y[q];
-      add(grid.row_near(inside, own), sets.y[q], Kokkos::popcount(sets.y[q]) * inside);
+    Real sum[kDividedOffsets];  // of the heights of a row's points [m]
+    for (int at = 0; at < kDividedOffsets; ++at) {
+      const Real height = y + r * divided_offset(at, false);
+      const Real inside = mirrored_inside(grid, height);
+      if (inside != height) outside |= sets.y[at];
+      const int j = grid.row_near(inside, own);
+      int q = 0;
+      while (q < n && row[q] != j) ++q;
+      if (q == n) row[n] = j, points[n] = 0, sum[n++] = 0;
+      points[q] |= sets.y[at];
+      sum[q] += Kokkos::popcount(sets.y[at]) * inside;
+    }
+    for (int q = 0; q < n; ++q) {
+      const int count = Kokkos::popcount(points[q]);
+      set(grid, q, row[q], Real(count) / kDividedPoints, sum[q] / count);
     }
   }
-  KOKKOS_INLINE_FUNCTION void add(int j, PointSet set, Real sum_of_heights) {
-    if (set == 0) return;
-    int q = 0;
-    while (q < n && row[q] != j) ++q;
-    if (q == n) row[n] = j, points[n] = 0, sum_[n++] = 0;
-    points[q] |= set;
-    sum_[q] += sum_of_heights;
-  }
 
-  Real sum_[kDividedOffsets];  // sum of the heights of the points [m]
+  Real weight_[kDividedOffsets];  // share of the grain in each row
 };
 
 }  // namespace barchan

@@ -8,10 +8,10 @@
 
 namespace barchan {
 
-/// The smaller of two slopes, zero where they differ in sign (minmod; Roe 1986).
+/// The smaller of two slopes, zero where they differ in sign (minmod; Roe 1986). Without branches,
+/// whose outcome would be as good as random.
 KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
-  if (a * b <= 0) return 0;
-  return Kokkos::abs(a) < Kokkos::abs(b) ? a : b;
+  return Kokkos::max(Real(0), Kokkos::min(a, b)) + Kokkos::min(Real(0), Kokkos::max(a, b));
 }
 
 /// Interlayer drag between rows j - 1 and j through one grain, over beta_p dt: C_j of
@@ -21,20 +21,21 @@ KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
 /// over all j is at most kDividedOffsets^2 / 4. Rows must be higher than a sixth of the grain: then
 /// each row between its ends holds a point.
 KOKKOS_INLINE_FUNCTION Real interlayer_drag_below(const GrainRows& rows, int j) {
-  Real sum = 0;
-  for (int a = 0; a < rows.n; ++a) {
-    for (int b = 0; b < rows.n; ++b)
-      if (rows.row[a] < j && j <= rows.row[b])
-        sum += rows.weight(a) * rows.weight(b) * (rows.row[b] - rows.row[a]);
+  Real below = 0, above = 0, moment_below = 0, moment_above = 0;
+  for (int q = 0; q < rows.n; ++q) {
+    const Real w = rows.weight(q), up = rows.row[q] - j;
+    const bool under = up < 0;
+    below += under ? w : 0, moment_below -= under ? w * up : 0;
+    above += under ? 0 : w, moment_above += under ? 0 : w * up;
   }
-  return sum;
+  return below * moment_above + above * moment_below;
 }
 
 /// Solid volume per fluid volume in the cell of a grain's centre.
 KOKKOS_INLINE_FUNCTION Real solid_per_fluid_at(const ConstFieldRef& alpha_f, const PointStencil& at,
                                                const GrainRows& rows) {
   const Real fluid = alpha_f(at.x_face.i, rows.row[0], at.z_face.i);
-  return Kokkos::fmax(1 - fluid, Real(0)) / Kokkos::fmax(fluid, Real(0.1));
+  return Kokkos::max(1 - fluid, Real(0)) / Kokkos::max(fluid, Real(0.1));
 }
 
 /// Two faces of a grain's column across a direction of the flow, and the part of the grain that
@@ -53,11 +54,13 @@ struct GrainFaces {
   KOKKOS_FORCEINLINE_FUNCTION Real weight(int side) const {
     return side == 0 ? 1 - of_second : of_second;
   }
+  /// The side that has more of the grain. Among others the grain seldom belongs to both.
+  KOKKOS_FORCEINLINE_FUNCTION int main_side() const { return of_second > Real(0.5) ? 1 : 0; }
   /// Limiter phi: the part of K = dt beta_p/m_f with which a grain joins the fluid at its two
   /// faces. The exchange is explicit: a grain takes c (1 - c) K of their difference, and must not
   /// take more than there is.
   KOKKOS_FORCEINLINE_FUNCTION Real limiter(Real K) const {
-    return Kokkos::fmin(Real(1), kLargestExchange / (of_second * (1 - of_second) * K));
+    return Kokkos::min(Real(1), kLargestExchange / (of_second * (1 - of_second) * K));
   }
 
  private:
@@ -112,33 +115,30 @@ struct LayerVelocity : GrainColumn {
         rows(of_grain),
         solid(solid_per_fluid / (1 + solid_per_fluid)) {
     const Real across_x = at.x_face.t - Real(0.5), across_z = at.z_face.t - Real(0.5);
-    for (int side = 0; side < 2; ++side) {
-      const Real wx = x_faces.weight(side), wz = z_faces.weight(side);
-      if (wx > 0) {
-        mean_of_x[side] =
-            in_rows({&u.x(i + side, 0, k), u.x.stride_y, u.x.stride_z, across_z}, x[side]);
-        mean_x += wx * mean_of_x[side];
-      }
-      if (wz > 0) {
-        mean_of_z[side] = in_rows({&u.z(i, 0, k + side), u.z.stride_y, 1, across_x}, z[side]);
-        mean_z += wz * mean_of_z[side];
-      }
-    }
+    const int main_x = x_faces.main_side(), main_z = z_faces.main_side();
+    add_x(main_x, u, across_z);
+    add_z(main_z, u, across_x);
+    if (x_faces.weight(1 - main_x) > 0) add_x(1 - main_x, u, across_z);
+    if (z_faces.weight(1 - main_z) > 0) add_z(1 - main_z, u, across_x);
   }
 
  private:
+  KOKKOS_FORCEINLINE_FUNCTION void add_x(int side, const ConstFaceRef& u, Real across) {
+    const ColumnVelocity column{&u.x(i + side, 0, k), u.x.stride_y, u.x.stride_z, across};
+    mean_of_x[side] = in_rows(column, x[side]);
+    mean_x += x_faces.weight(side) * mean_of_x[side];
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void add_z(int side, const ConstFaceRef& u, Real across) {
+    const ColumnVelocity column{&u.z(i, 0, k + side), u.z.stride_y, 1, across};
+    mean_of_z[side] = in_rows(column, z[side]);
+    mean_z += z_faces.weight(side) * mean_of_z[side];
+  }
   /// Sets the velocity in each row; returns the mean over the grain.
   KOKKOS_INLINE_FUNCTION Real in_rows(const ColumnVelocity& u, Real (&v)[kDividedOffsets]) const {
-    Real below = 0, here = 0, above = 0, mean = 0;
+    Real mean = 0;
     for (int r = 0; r < rows.n; ++r) {
-      const int j = rows.row[r], from_last = r > 0 ? j - rows.row[r - 1] : 0;
-      if (from_last == 1) {
-        below = here, here = above, above = u.in_row(j + 1);
-      } else if (from_last == -1) {
-        above = here, here = below, below = u.in_row(j - 1);
-      } else {
-        below = u.in_row(j - 1), here = u.in_row(j), above = u.in_row(j + 1);
-      }
+      const int j = rows.row[r];
+      const Real below = u.in_row(j - 1), here = u.in_row(j), above = u.in_row(j + 1);
       v[r] =
           here + u.off_middle(j, here) +
           limited_slope((here - below) * rows.over_lower[r], (above - here) * rows.over_upper[r]);

@@ -15,7 +15,7 @@ inline constexpr Real kDensestFlow = 0.585, kMostMixed = 0.565;
 ///   eta = 1 + 5/2 phi / (1 - phi/0.585).
 /// It is 5/2 at phi = 0 (Einstein 1906), and 73 at the largest phi that counts, 0.565.
 KOKKOS_INLINE_FUNCTION Real viscosity_of_grains(Real phi) {
-  return Real(2.5) / (1 - Kokkos::fmin(phi, kMostMixed) / kDensestFlow);
+  return Real(2.5) / (1 - Kokkos::min(phi, Real(kMostMixed)) / kDensestFlow);
 }
 
 /// Rate [kg/s] at which a grain joins the rows that it lies in. The forces rate w_j (u_j - u_f) act
@@ -44,7 +44,7 @@ struct Stresslet {
     const Real of_mixture = mu_f * sphere_volume(grain.r) * viscosity_of_grains(phi) /
                             (mean_product - mean_height * mean_middle);
     const Real lag = slip.x * slip.x + slip.z * slip.z;
-    return beta + Kokkos::fmax(of_mixture - beta, Real(0)) * moving / (moving + lag);
+    return beta + Kokkos::max(of_mixture - beta, Real(0)) * moving / (moving + lag);
   }
   /// Upper bound [kg/s] of rate times w (1 - w), for two rows.
   KOKKOS_FORCEINLINE_FUNCTION Real most(Real r) const {

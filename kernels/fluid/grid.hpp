@@ -62,7 +62,7 @@ struct BasicGrid : GridExtents {
 
   /// Row whose interval [y_face(j), y_face(j+1)) holds y; clamped to 0..ny-1.
   KOKKOS_INLINE_FUNCTION int row_of(Real y) const {
-    const Real part = y > 0 ? Kokkos::fmin(y * (kParts * ny / ly), Real(kParts * ny - 1)) : 0;
+    const Real part = y > 0 ? Kokkos::min(y * (kParts * ny / ly), Real(kParts * ny - 1)) : 0;
     return row_near(y, static_cast<int>(row_at_[static_cast<int>(part)]));
   }
 };

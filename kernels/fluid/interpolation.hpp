@@ -44,29 +44,38 @@ KOKKOS_INLINE_FUNCTION Real interpolate(const ConstFieldRef& f, const LinearSten
   return interpolate(f, {x, z}, y);
 }
 
+/// Interpolation weights of a height in or near a row, at the walls held inside the domain. Near a
+/// wall the ghost row takes part, so the boundary condition decides the value (a no-slip velocity
+/// vanishes there).
+struct HeightStencil {
+  LinearStencil y_face, y_centre;
+
+  KOKKOS_FORCEINLINE_FUNCTION HeightStencil(const GridRef& g, Real height, int row_nearby) {
+    const Real y = Kokkos::clamp(height, Real(0), g.ly);
+    const int row = g.row_near(y, row_nearby), below = y < g.y_centre(row) ? row - 1 : row;
+    y_face = {row, (y - g.y_face(row)) / g.dy(row)};
+    y_centre = {below, (y - g.y_centre(below)) / g.dy_centre(below + 1)};
+  }
+};
+
 /// Interpolation weights of one point in a column of this rank for each staggering. The point is
-/// brought into the domain first, wrapped or held at the ends. Near a wall the ghost row takes
-/// part, so the boundary condition decides the value (a no-slip velocity vanishes there).
-struct PointStencil {
-  LinearStencil x_face, x_centre, y_face, y_centre, z_face, z_centre;
+/// brought into the domain first, wrapped or held at the ends.
+struct PointStencil : HeightStencil {
+  LinearStencil x_face, x_centre, z_face, z_centre;
   PlaneStencil x_faces, centres, z_faces;
 
   KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const PeriodicBox& box, const Vec3& point)
       : PointStencil(g, box, point, g.row_of(point.y)) {}
   /// Stencil of a point in or near a row.
   KOKKOS_INLINE_FUNCTION PointStencil(const GridRef& g, const PeriodicBox& box, const Vec3& point,
-                                      int row_nearby) {
+                                      int row_nearby)
+      : HeightStencil(g, point.y, row_nearby) {
     const Vec3 inside = box.wrap(point);
     const Real x = Kokkos::clamp(inside.x, Real(0), g.lx), z = inside.z;
-    const Real y = Kokkos::clamp(inside.y, Real(0), g.ly);
     x_face = uniform(x / g.dx, g.i_begin, 0, g.nx - 1);
     x_centre = uniform(x / g.dx - Real(0.5), g.i_begin, -1, g.nx - 1);
     z_face = uniform(z / g.dz, g.k_begin, 0, g.nz - 1);
     z_centre = uniform(z / g.dz - Real(0.5), g.k_begin, -1, g.nz - 1);
-    const int row = g.row_near(y, row_nearby);
-    y_face = {row, (y - g.y_face(row)) / g.dy(row)};
-    const int below = y < g.y_centre(row) ? row - 1 : row;
-    y_centre = {below, (y - g.y_centre(below)) / g.dy_centre(below + 1)};
     x_faces = {x_face, z_centre};
     centres = {x_centre, z_centre};
     z_faces = {x_centre, z_face};
@@ -88,35 +97,58 @@ KOKKOS_INLINE_FUNCTION Vec3 interpolate_faces(const ConstFaceRef& f, const Point
           interpolate(f.z, s.z_faces, s.y_centre)};
 }
 
+/// Differences of a field from one of the eight nodes around a point to the next along an axis,
+/// interpolated across it; exact for linear fields.
+struct NodeDifferences {
+  const ConstFieldRef& f;
+  const LinearStencil &x, &y, &z;
+
+  KOKKOS_FORCEINLINE_FUNCTION Real along_x() const {
+    const auto at = [this](int i, int j) {
+      return fma(z.t, f(i, j, z.i + 1), (1 - z.t) * f(i, j, z.i));
+    };
+    return between_rows(at, x.i + 1) - between_rows(at, x.i);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real along_y(const PlaneStencil& at) const {
+    return interpolate_in_row(f, at, y.i + 1) - interpolate_in_row(f, at, y.i);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real along_z() const {
+    const auto at = [this](int k, int j) {
+      return fma(x.t, f(x.i + 1, j, k), (1 - x.t) * f(x.i, j, k));
+    };
+    return between_rows(at, z.i + 1) - between_rows(at, z.i);
+  }
+
+ private:
+  template <class InRow>
+  KOKKOS_FORCEINLINE_FUNCTION Real between_rows(const InRow& at, int n) const {
+    return (1 - y.t) * at(n, y.i) + y.t * at(n, y.i + 1);
+  }
+};
+
 /// Gradient of the interpolated field of cells at the point; exact for linear fields.
 KOKKOS_INLINE_FUNCTION Vec3 interpolate_gradient(const ConstFieldRef& f, const GridRef& g,
                                                  const PointStencil& s) {
-  const auto &x = s.x_centre, &y = s.y_centre, &z = s.z_centre;
-  return {(interpolate(f, {x.i, 1}, y, z) - interpolate(f, {x.i, 0}, y, z)) / g.dx,
-          (interpolate(f, x, {y.i, 1}, z) - interpolate(f, x, {y.i, 0}, z)) / g.dy_centre(y.i + 1),
-          (interpolate(f, x, y, {z.i, 1}) - interpolate(f, x, y, {z.i, 0})) / g.dz};
+  const NodeDifferences difference{f, s.x_centre, s.y_centre, s.z_centre};
+  return {difference.along_x() / g.dx,
+          difference.along_y(s.centres) / g.dy_centre(s.y_centre.i + 1),
+          difference.along_z() / g.dz};
 }
 
-/// Curl of the interpolated field at the point; exact for linear fields, and at a wall that of the
-/// ghost row.
+/// Curl of the interpolated field in the column of a point, at a height; exact for linear fields,
+/// and at a wall that of the ghost row.
+KOKKOS_FORCEINLINE_FUNCTION Vec3 interpolate_curl(const ConstFaceRef& f, const GridRef& g,
+                                                  const PointStencil& s, const HeightStencil& at) {
+  const NodeDifferences of_x{f.x, s.x_face, at.y_centre, s.z_centre},
+      of_y{f.y, s.x_centre, at.y_face, s.z_centre}, of_z{f.z, s.x_centre, at.y_centre, s.z_face};
+  const Real per_x = 1 / g.dx, per_y = 1 / g.dy_centre(at.y_centre.i + 1), per_z = 1 / g.dz;
+  return {of_z.along_y(s.z_faces) * per_y - of_y.along_z() * per_z,
+          of_x.along_z() * per_z - of_z.along_x() * per_x,
+          of_y.along_x() * per_x - of_x.along_y(s.x_faces) * per_y};
+}
 KOKKOS_INLINE_FUNCTION Vec3 interpolate_curl(const ConstFaceRef& f, const GridRef& g,
                                              const PointStencil& s) {
-  // Differences from one node of the stencil to the next along x, y or z.
-  const auto along_x = [&](const ConstFieldRef& c, const LinearStencil& y, const LinearStencil& z) {
-    const int i = s.x_centre.i;
-    return (interpolate(c, {i, 1}, y, z) - interpolate(c, {i, 0}, y, z)) / g.dx;
-  };
-  const auto along_y = [&](const ConstFieldRef& c, const LinearStencil& x, const LinearStencil& z) {
-    const int j = s.y_centre.i;
-    return (interpolate(c, x, {j, 1}, z) - interpolate(c, x, {j, 0}, z)) / g.dy_centre(j + 1);
-  };
-  const auto along_z = [&](const ConstFieldRef& c, const LinearStencil& x, const LinearStencil& y) {
-    const int k = s.z_centre.i;
-    return (interpolate(c, x, y, {k, 1}) - interpolate(c, x, y, {k, 0})) / g.dz;
-  };
-  return {along_y(f.z, s.x_centre, s.z_face) - along_z(f.y, s.x_centre, s.y_face),
-          along_z(f.x, s.x_face, s.y_centre) - along_x(f.z, s.y_centre, s.z_face),
-          along_x(f.y, s.y_face, s.z_centre) - along_y(f.x, s.x_face, s.z_centre)};
+  return interpolate_curl(f, g, s, s);
 }
 
 }  // namespace barchan

@@ -17,7 +17,7 @@ void CentredExchange::gather(const FluidState& fluid, GrainState& grains, Real d
   pressure_gradient(fluid, grains);
   stress(fluid, grains);
   flow_at_grains(fluid, grains);
-  gather_.act_on(grains, fluid, dt, sums_);
+  gather_.act_on(grains, dt, sums_);
 }
 
 void CentredExchange::deposit(const GrainState& grains, FluidState& fluid, Real dt) {

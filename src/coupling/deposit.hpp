@@ -33,7 +33,7 @@ class Deposit {
   void add(const ExchangeOfGrain& of_grain, const Exchange& exchange, int n_grains) {
     fields_.lend_to_deposit();
     clear(fields_.deposited);
-    using Launch = DepositGrains<kOnHost ? 128 : 1, Exchange>;
+    using Launch = DepositGrains<kOnHost ? 256 : 1, Exchange>;
     Kokkos::parallel_for("coupling: deposit", items(Launch::items_for(n_grains)),
                          Launch{of_grain, exchange, deposits_, n_grains});
     halo_.scatter_add(deposits_.sum);

@@ -35,23 +35,24 @@ Gather::Gather(const CoupledCase& config, const GrainState& grains, const Coupli
       has_floor_(config.fluid->fluid.bottom == WallFlow::no_slip),
       layers_(layers) {}
 
-void Gather::act_on(GrainState& grains, const FluidState& fluid, Real dt,
-                    const ExchangeSums& sums) {
+void Gather::act_on(GrainState& grains, Real dt, const ExchangeSums& sums) {
   Kokkos::parallel_reduce("ledger: force of the flow", items(grains.n),
                           SumOfForces{grains.kin, flow_at_},
                           sums.into<Vec3>(ExchangeSums::kForceOnGrains));
   drag_and_share(grains, dt);
-  if (forces_.lift || forces_.torque) lift_and_torque(fluid, grains);
+  if (forces_.lift || forces_.torque) lift_and_torque(grains);
   is_first_step_ = false;
 }
 
-void Gather::reserve_flow(int n) {
+void Gather::reserve_flow(const GrainState& grains) {
+  const int n = grains.n;
   for (auto* array :
        {&flow_at_.u, &flow_at_.du_dt, &flow_at_.u_grad_u, &flow_at_.pressure, &flow_at_.stress})
     reserve_entries(*array, n);
   for (auto* array : {&flow_at_.alpha_l, &flow_at_.alpha_o, &flow_at_.slip, &flow_at_.factor,
                       &flow_at_.solid_per_fluid})
     reserve_entries(*array, n);
+  flow_at_.vorticity = forces_.torque ? grains.fluid.omega_f : grains.exchange.lift;
 }
 
 void Gather::undo_smoothing(const FluidState& fluid) {
@@ -144,20 +145,16 @@ void Gather::drag_and_share(const GrainState& grains, Real dt) const {
                                        .exchange = grains.exchange});
 }
 
-void Gather::lift_and_torque(const FluidState& fluid, const GrainState& grains) const {
+void Gather::lift_and_torque(const GrainState& grains) const {
   std::visit(
       [&](const auto& law) {
         Kokkos::parallel_for("coupling: gather shear", items(grains.n),
                              GatherShear{.law = law,
-                                         .grid = grid_.grid,
-                                         .box = grid_.box,
-                                         .u = fluid.u,
                                          .rho_f = rho_f_,
                                          .mu_f = rho_f_ * nu_,
                                          .lift = forces_.lift,
                                          .torque = forces_.torque,
                                          .floor = has_floor_,
-                                         .layers = layers_,
                                          .grains = grains.kin,
                                          .flow_at = flow_at_,
                                          .on_grains = grains.fluid,

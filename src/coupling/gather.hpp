@@ -19,8 +19,8 @@ class Gather {
 
   /// Makes the next step the first of grains that have just been placed.
   void start() { is_first_step_ = true; }
-  /// Reserves memory for the flow at n grains; first of all.
-  void reserve_flow(int n);
+  /// Reserves memory for the flow at the grains; first of all.
+  void reserve_flow(const GrainState& grains);
   /// Sets the fraction before the smoothing.
   void undo_smoothing(const FluidState& fluid);
 
@@ -37,7 +37,7 @@ class Gather {
 
   /// Sets the action on the grains in the flow that the scheme has found at each; call it last.
   /// Books the forces of pressure gradient and stress on them.
-  void act_on(GrainState& grains, const FluidState& fluid, Real dt, const ExchangeSums& sums);
+  void act_on(GrainState& grains, Real dt, const ExchangeSums& sums);
 
   const FlowAtGrains& flow() const { return flow_at_; }
   const FluidForces& forces() const { return forces_; }
@@ -52,7 +52,7 @@ class Gather {
   void to_cells(const FaceVector& force, const Field& alpha, const Region& cells,
                 CellVector& in_cells, const ExchangeSums& sums, ExchangeSums::Sum sum) const;
   void drag_and_share(const GrainState& grains, Real dt) const;
-  void lift_and_torque(const FluidState& fluid, const GrainState& grains) const;
+  void lift_and_torque(const GrainState& grains) const;
 
   const CouplingGrid& grid_;
   CouplingFields& fields_;
@@ -61,7 +61,7 @@ class Gather {
   SubmergedWeight weight_;
   Real rho_f_, nu_;
   bool has_floor_;  // no slip at y = 0
-  bool layers_;     // each part of a grain feels its own row of cells
+  bool layers_;     // the exchange has layers
   bool is_first_step_ = false;
   FlowAtGrains flow_at_;
 };

@@ -26,12 +26,12 @@ void LayeredExchange::gather(const FluidState& fluid, GrainState& grains, Real d
   pressure_gradient(fluid);
   stress(fluid);
   flow_at_grains(fluid, grains);
-  gather_.act_on(grains, fluid, dt, sums_);
+  gather_.act_on(grains, dt, sums_);
 }
 
 void LayeredExchange::deposit(const GrainState& grains, FluidState& fluid, Real dt) {
   const ExchangeOfGrain of_grain = begin_deposit(grains, dt);
-  max_each_cell("coupling: fastest", sums_, ExchangeSums::kFastest, owned_cells(grid_.grid),
+  max_each_cell("coupling: fastest", sums_, ExchangeSums::kFastest, fields_.of_fraction.dilated,
                 FastestAlong{fluid.u});
   deposit_.find_cells(sums_);
   fields_.of_flow.exchange.set(fields_.deposited.columns());

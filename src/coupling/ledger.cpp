@@ -28,7 +28,8 @@ void ExchangeSums::combine_totals(MPI_Comm ranks) const {
 
 Real ExchangeSums::largest_exchange() const {
   const auto totals = get<GrainTotals>(kTotals);
-  return totals.size + 4 * get(kFastest) * totals.rows_dt;
+  const Real fastest = std::max(get(kFastest), Real(0));  // below zero where no cells were
+  return totals.size + 4 * fastest * totals.rows_dt;
 }
 
 ExchangeLedger ExchangeSums::ledger(MPI_Comm ranks, Real dt) const {

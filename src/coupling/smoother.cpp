@@ -9,8 +9,8 @@ namespace barchan {
 
 namespace {
 
-constexpr std::size_t kSizesKept = 2;  // a dune may waver between two
-constexpr Real kWorthIt = 0.8;         // part of the columns; if more are needed, all are solved
+constexpr std::size_t kSizesKept = 4;  // a dune may waver between two along x and along z
+constexpr Real kWorthIt = 0.8;         // part of an axis; if more is needed, all of it is solved
 
 Real square(Real a) { return a * a; }
 
@@ -33,44 +33,67 @@ int good_for_fft(int n) {
   return size;
 }
 
-/// Grid cut to nx columns, periodic in x.
-Grid with_columns(Grid grid, int nx) {
-  grid.nx = grid.nx_all = nx;
-  grid.i_begin = 0;
-  grid.lx = nx * grid.dx;
-  return grid;
+bool is_cut_along_x(const Grid& grid) { return grid.ranks && grid.ranks->along_x().count > 1; }
+bool is_cut_along_z(const Grid& grid) { return grid.ranks && grid.ranks->along_z().count > 1; }
+
+/// Parts of a stretch on either side of the periodic end of a line of n cells: the cells
+/// [begin, end) of the stretch are those `shift` further on the line.
+struct Part {
+  int begin, end, shift;
+};
+std::vector<Part> parts_of(const Smoother::Stretch& s, int n) {
+  if (s.first + s.length <= n) return {{0, s.length, s.first}};
+  return {{0, n - s.first, s.first}, {n - s.first, s.length, s.first - n}};
 }
 
-bool is_cut_along_x(const Grid& grid) { return grid.ranks && grid.ranks->along_x().count > 1; }
-
-/// Copies a stretch of x, then as many zeros as a good size takes; zero beyond the region.
+/// Copies a part of a field; zero beyond the region.
 struct TakeIn {
   RegionRef region;
   ConstFieldRef f;
-  int first, length, nx;  // columns of f, which is periodic
+  int shift_x, shift_z;
   FieldRef out;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const int at = first + i < nx ? first + i : first + i - nx;
-    out(i, j, k) = i < length && region.has(at, j, k) ? f(at, j, k) : Real(0);
+    const int x = i + shift_x, z = k + shift_z;
+    out(i, j, k) = region.has(x, j, z) ? f(x, j, z) : Real(0);
   }
 };
 struct PutBack {
   RegionRef region;
   ConstFieldRef in;
-  int first, nx;
+  int shift_x, shift_z;
   FieldRef f;
   KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const {
-    const int at = first + i < nx ? first + i : first + i - nx;
-    if (region.has(at, j, k)) f(at, j, k) = in(i, j, k);
+    const int x = i + shift_x, z = k + shift_z;
+    if (region.has(x, j, z)) f(x, j, z) = in(i, j, k);
   }
 };
+struct SetZero {
+  FieldRef f;
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(int i, int j, int k) const { f(i, j, k) = 0; }
+};
+
+/// Grid of which a direction that is not whole is cut to the size of a stretch.
+Grid cut_to(Grid grid, const Smoother::Stretch& x, const Smoother::Stretch& z) {
+  if (!x.whole) {
+    grid.nx = grid.nx_all = x.size, grid.i_begin = 0;
+    grid.lx = x.size * grid.dx;
+  }
+  if (!z.whole) {
+    grid.nz = grid.nz_all = z.size, grid.k_begin = 0;
+    grid.lz = z.size * grid.dz;
+  }
+  return grid;
+}
 
 }  // namespace
 
-Smoother::Columns::Columns(const Grid& whole, int nx, const EvenExtension& even, Real length)
-    : grid(with_columns(whole, nx)),
-      poisson(grid, std::make_shared<const PlaneFft>(grid, EvenExtension{.z = even.z}), 1,
-              square(length)),
+Smoother::Columns::Columns(const Grid& all, const Stretch& x, const Stretch& z,
+                           const EvenExtension& even, Real length)
+    : grid(cut_to(all, x, z)),
+      poisson(grid,
+              std::make_shared<const PlaneFft>(
+                  grid, EvenExtension{.x = x.whole && even.x, .z = z.whole && even.z}),
+              1, square(length)),
       f("smoother: columns", grid) {}
 
 Smoother::Smoother(const Grid& grid, std::shared_ptr<const PlaneFft> whole,
@@ -95,14 +118,14 @@ int Smoother::top_above(int from) const {
   return j;
 }
 
-const Smoother::Columns& Smoother::columns(int nx) const {
-  const auto known = std::find_if(columns_.begin(), columns_.end(),
-                                  [nx](const Columns& c) { return c.grid.nx == nx; });
+const Smoother::Columns& Smoother::columns(const Stretch& x, const Stretch& z) const {
+  const auto fits = [&](const Columns& c) { return c.grid.nx == x.size && c.grid.nz == z.size; };
+  const auto known = std::find_if(columns_.begin(), columns_.end(), fits);
   if (known != columns_.end()) {
     columns_.splice(columns_.begin(), columns_, known);
   } else {
     if (columns_.size() == kSizesKept) columns_.pop_back();
-    columns_.emplace_front(grid_, nx, even_, length_);
+    columns_.emplace_front(grid_, x, z, even_, length_);
   }
   return columns_.front();
 }
@@ -112,36 +135,64 @@ const PoissonFft& Smoother::whole() const {
   return *whole_;
 }
 
-/// Tells if one solve over all columns is the cheaper one, or the only one.
-bool Smoother::takes_all(const std::vector<ColumnMap::Interval>& stretches) const {
-  int columns = 0;
+/// Stretches to be solved for intervals of a direction with n cells here and n_all in all: one, the
+/// whole direction, if that is the cheaper one, or the only one.
+std::vector<Smoother::Stretch> Smoother::stretches(
+    const std::vector<ColumnMap::Interval>& intervals, int n, int n_all, bool even, bool is_cut) {
+  std::vector<Stretch> found;
+  int cells = 0;
   bool at_wall = false;
-  for (const auto& [first, last] : stretches) {
-    columns += good_for_fft(last - first);
-    at_wall = at_wall || (even_.x && (first == 0 || last >= grid_.nx_all));
+  for (const auto& [first, last] : intervals) {
+    const int length = last - first;
+    found.push_back({.first = first, .length = length, .size = good_for_fft(length)});
+    cells += found.back().size;
+    at_wall = at_wall || (even && (first == 0 || last >= n_all));
   }
-  return at_wall || is_cut_along_x(grid_) || columns > kWorthIt * grid_.nx_all;
+  if (at_wall || is_cut || cells > kWorthIt * n_all)
+    return {{.first = 0, .length = n, .size = n, .whole = true}};
+  return found;
 }
 
 void Smoother::solve(Field& f, const Region& region) const {
-  if (length_ == 0 || region.columns().is_empty()) return;
-  const auto stretches = region.columns().stretches_of_x(1);
-  if (takes_all(stretches)) {
+  const ColumnMap& columns = region.columns();
+  if (length_ == 0 || columns.is_empty()) return;
+  const auto along_x =
+      stretches(columns.stretches_of_x(1), grid_.nx, grid_.nx_all, even_.x, is_cut_along_x(grid_));
+  const auto along_z =
+      stretches(columns.stretches_of_z(1), grid_.nz, grid_.nz_all, even_.z, is_cut_along_z(grid_));
+  if (along_x.front().whole && along_z.front().whole) {
     Field all = f;
-    const TakeIn zero_beyond{region.ref(), f, 0, grid_.nx, grid_.nx, all};
-    for_each_cell("smoother: all columns", grid_, zero_beyond);
+    for_each_cell("smoother: all columns", grid_, TakeIn{region.ref(), f, 0, 0, all});
     return whole().solve(f, f);
   }
-  for (const auto& [first, last] : stretches) {
-    const int length = last - first;
-    const Columns& some = columns(good_for_fft(length));
-    Field inside = some.f;
-    for_each_cell("smoother: take in", some.grid,
-                  TakeIn{region.ref(), f, first, length, grid_.nx, inside});
-    some.poisson.solve(inside, inside);
-    for_each_cell("smoother: put back", CellRange{0, length, 0, grid_.ny, 0, grid_.nz},
-                  PutBack{region.ref(), inside, first, grid_.nx, f});
+  for (const Stretch& x : along_x) {
+    for (const Stretch& z : along_z) solve_some(f, region, x, z);
   }
+}
+
+void Smoother::solve_some(Field& f, const Region& region, const Stretch& x,
+                          const Stretch& z) const {
+  const Columns& some = columns(x, z);
+  Field inside = some.f;
+  const int ny = grid_.ny;
+  const auto each_part = [&](const auto& action) {
+    for (const Part& px : parts_of(x, grid_.nx)) {
+      for (const Part& pz : parts_of(z, grid_.nz))
+        action(CellRange{px.begin, px.end, 0, ny, pz.begin, pz.end}, px.shift, pz.shift);
+    }
+  };
+  each_part([&](const CellRange& cells, int shift_x, int shift_z) {
+    for_each_cell("smoother: take in", cells, TakeIn{region.ref(), f, shift_x, shift_z, inside});
+  });
+  const SetZero zero{inside};  // as many as a good size takes
+  if (x.length < x.size)
+    for_each_cell("smoother: rest", CellRange{x.length, x.size, 0, ny, 0, z.size}, zero);
+  if (z.length < z.size)
+    for_each_cell("smoother: rest", CellRange{0, x.length, 0, ny, z.length, z.size}, zero);
+  some.poisson.solve(inside, inside);
+  each_part([&](const CellRange& cells, int shift_x, int shift_z) {
+    for_each_cell("smoother: put back", cells, PutBack{region.ref(), inside, shift_x, shift_z, f});
+  });
 }
 
 }  // namespace barchan

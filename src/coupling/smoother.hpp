@@ -31,18 +31,27 @@ class Smoother {
   /// zero, and afterwards holds no more than what has decayed. All ranks call it together.
   void solve(Field& f, const Region& region) const;
 
+  /// Stretch of x or z that is solved as a periodic direction of `size` cells of its own.
+  struct Stretch {
+    int first, length, size;
+    bool whole = false;  // the direction as it is
+  };
+
  private:
   /// Some columns of cells as a periodic grid of their own: its ends feel each other as little as
   /// they feel the grains.
   struct Columns {
-    Columns(const Grid& whole, int nx, const EvenExtension& even, Real length);
+    Columns(const Grid& all, const Stretch& x, const Stretch& z, const EvenExtension& even,
+            Real length);
     Grid grid;
     PoissonFft poisson;
     Field f;
   };
-  const Columns& columns(int nx) const;
+  const Columns& columns(const Stretch& x, const Stretch& z) const;
   const PoissonFft& whole() const;
-  bool takes_all(const std::vector<ColumnMap::Interval>& stretches) const;
+  static std::vector<Stretch> stretches(const std::vector<ColumnMap::Interval>& intervals, int n,
+                                        int n_all, bool even, bool is_cut);
+  void solve_some(Field& f, const Region& region, const Stretch& x, const Stretch& z) const;
 
   Grid grid_;
   EvenExtension even_;

@@ -16,10 +16,11 @@ void UnresolvedExchange::start(const GrainState& grains, FluidState& fluid) {
 }
 
 void UnresolvedExchange::begin_gather(const FluidState& fluid, const GrainState& grains) {
-  gather_.reserve_flow(grains.n);
+  gather_.reserve_flow(grains);
   fields_.lend_to_gather();
   grid_.mark_columns_of(grains);
-  grid_.marks.mark_not_one(CouplingGrid::kOfFraction, grid_.grid, fluid.alpha_f);
+  mark_not_one(grid_.marks, CouplingGrid::kOfFraction, grid_.grid, fluid.alpha_f,
+               fields_.of_flow.fraction.cells);  // it is one beyond
   grid_.marks.fetch();
   const ColumnMap of_grains = grid_.columns_of_grains();
   fields_.of_grains.set(of_grains);

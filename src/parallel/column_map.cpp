@@ -4,39 +4,27 @@
 #include <cstring>
 #include <span>
 
-#include "kernels/math/raise_to.hpp"
 #include "src/parallel/exchange.hpp"
-#include "src/parallel/launch.hpp"
 
 namespace barchan {
 
 namespace {
 
-/// Marks columns in which a field is not one: on a host a plane a work item, on a device a column.
-struct MarkNotOne {
-  ConstFieldRef field;
-  int nx, ny;
-  int first, stride, last;   // mark of this rank's first column, from plane to plane, of the height
-  Kokkos::View<int*> marks;  // marks of all ranks
-
-  KOKKOS_FUNCTION void operator()(int item) const {
-    int top = 0;
-    const int k = kOnHost ? item : item / nx;
-    const int begin = kOnHost ? 0 : item % nx, end = kOnHost ? nx : begin + 1;
-    int* const mark = marks.data() + first + static_cast<std::ptrdiff_t>(stride) * k;
-    for (int j = 0; j < ny; ++j) {
-      int found = 0;
-#pragma omp simd reduction(| : found)
-      for (int i = begin; i < end; ++i) {
-        const int here = field(i, j, k) != 1 ? 1 : 0;
-        mark[i] |= here;
-        found |= here;
-      }
-      top = found != 0 ? j + 1 : top;
-    }
-    raise_to(&marks(last), top);
+/// Stretches of a periodic line that are marked, each `apart` or more from the next.
+std::vector<ColumnMap::Interval> stretches(const std::vector<std::uint8_t>& marked, int apart) {
+  const int n = static_cast<int>(marked.size());
+  std::vector<ColumnMap::Interval> found;
+  for (int i = 0; i < n; ++i) {
+    if (marked[static_cast<std::size_t>(i)] == 0) continue;
+    if (found.empty() || i - found.back().last >= apart) found.push_back({i, i});
+    found.back().last = i + 1;
   }
-};
+  if (found.size() > 1 && found.front().first + n - found.back().last < apart) {
+    found.back().last = found.front().last + n;
+    found.erase(found.begin());
+  }
+  return found;
+}
 
 }  // namespace
 
@@ -48,17 +36,6 @@ ColumnMap ColumnMap::everything(const Grid& grid) {
   std::fill(all.on_.begin(), all.on_.end(), 1);
   all.top_ = grid.ny;
   return all;
-}
-
-void ColumnMarks::mark_not_one(int row, const Grid& grid, const Field& field) const {
-  Kokkos::parallel_for("columns: not one", items(kOnHost ? grid.nz : grid.nx * grid.nz),
-                       MarkNotOne{.field = field,
-                                  .nx = grid.nx,
-                                  .ny = grid.ny,
-                                  .first = grid.i_begin + grid.nx_all * grid.k_begin,
-                                  .stride = grid.nx_all,
-                                  .last = grid.nx_all * grid.nz_all,
-                                  .marks = this->row(row)});
 }
 
 ColumnMap ColumnMap::marked(const Grid& grid, const ColumnMarks& marks, int row) {
@@ -141,17 +118,15 @@ std::vector<ColumnMap::Interval> ColumnMap::stretches_of_x(int apart) const {
   for (int k = 0; k < nz_; ++k) {
     for (int i = 0; i < nx_; ++i) any[static_cast<std::size_t>(i)] |= on_[index(i, k)];
   }
-  std::vector<Interval> found;
-  for (int i = 0; i < nx_; ++i) {
-    if (any[static_cast<std::size_t>(i)] == 0) continue;
-    if (found.empty() || i - found.back().last >= apart) found.push_back({i, i});
-    found.back().last = i + 1;
+  return stretches(any, apart);
+}
+
+std::vector<ColumnMap::Interval> ColumnMap::stretches_of_z(int apart) const {
+  std::vector<std::uint8_t> any(static_cast<std::size_t>(nz_), 0);
+  for (int k = 0; k < nz_; ++k) {
+    for (int i = 0; i < nx_; ++i) any[static_cast<std::size_t>(k)] |= on_[index(i, k)];
   }
-  if (found.size() > 1 && found.front().first + nx_ - found.back().last < apart) {
-    found.back().last = found.front().last + nx_;
-    found.erase(found.begin());
-  }
-  return found;
+  return stretches(any, apart);
 }
 
 }  // namespace barchan

@@ -22,8 +22,6 @@ struct ColumnMarks {
       : on_device(label, rows, grid.nx_all * grid.nz_all + 1), on_host(mirror(on_device)) {}
 
   void set_zero() const { Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), on_device, 0); }
-  /// Marks the columns of this rank where a field is not one, up to its highest such cell.
-  void mark_not_one(int row, const Grid& grid, const Field& field) const;
   /// Row of marks, for kernels.
   Kokkos::View<int*> row(int row) const { return Kokkos::subview(on_device, row, Kokkos::ALL); }
   /// Copies the marks to the host, which has them after a fence.
@@ -66,6 +64,7 @@ class ColumnMap {
   /// Stretches of x that have columns, each `apart` columns or more from the next, across the
   /// periodic end, too: there `last` is beyond nx_all.
   std::vector<Interval> stretches_of_x(int apart) const;
+  std::vector<Interval> stretches_of_z(int apart) const;  // likewise
 
  private:
   std::size_t index(int i, int k) const {

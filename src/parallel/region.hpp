@@ -51,6 +51,11 @@ struct ActiveRegion {
   Region cells, dilated;
 };
 
+/// Marks the columns of this rank where a field is not one in a region, up to its highest such
+/// cell.
+void mark_not_one(const ColumnMarks& marks, int row, const Grid& grid, const Field& field,
+                  const Region& region);
+
 /// Calls functor(i, j, k) for the cells of a region.
 template <class Functor>
 void for_each_cell(const char* label, const Region& region, const Functor& functor) {

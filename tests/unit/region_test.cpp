@@ -88,9 +88,10 @@ TEST(ColumnMap, FindsWhereAFieldIsNotOne) {
     return (i == 2 && j == 3 && k == 1) || (i == 5 && j == 0 && k == 3) ? 1 - 1e-15 : 1.0;
   });
   const ColumnMarks marks("test: marks", grid, 2);
+  Region where(grid);
   const auto not_one = [&] {
     marks.set_zero();
-    marks.mark_not_one(1, grid, f);
+    mark_not_one(marks, 1, grid, f, where);
     marks.fetch();
     EXPECT_TRUE(ColumnMap::marked(grid, marks, 0).is_empty());
     return ColumnMap::marked(grid, marks, 1);
@@ -98,6 +99,9 @@ TEST(ColumnMap, FindsWhereAFieldIsNotOne) {
   const ColumnMap map = not_one();
   EXPECT_EQ(columns_of(grid, map), (std::set<Column>{{2, 1}, {5, 3}}));
   EXPECT_EQ(map.top(), 4);
+  where.set(map_of(grid, {{4, 3}, {5, 3}}, 2));  // elsewhere it is not looked at
+  EXPECT_EQ(columns_of(grid, not_one()), (std::set<Column>{{5, 3}}));
+  EXPECT_EQ(not_one().top(), 1);
   test::set_field(f, grid, [](int, int, int) { return 1.0; });
   EXPECT_TRUE(not_one().is_empty());
 }
@@ -146,42 +150,53 @@ TEST(Region, EveryCellIsVisitedOnceByTheFunctorOfItsPart) {
   EXPECT_FALSE(in.has_ghosts());
 }
 
-/// Solution as over all columns: in the middle, across the periodic end, in two stretches.
-TEST(Smoother, WhereGrainsAreIsAsGoodAsEverywhere) {
-  const Grid grid = grid_of({90, 12, 10});
+/// Compares the solution in the region of grains with that over all columns.
+void compare_with_everywhere(const Grid& grid, const std::vector<Column>& grains) {
   const Real length = 4e-4;
   const auto fft = std::make_shared<const PlaneFft>(grid);
   const Smoother smoother(grid, fft, {}, length);
   const PoissonFft everywhere(grid, fft, 1, length * length);
   EXPECT_GT(smoother.reach(), 5);
+  const ColumnMap held = map_of(grid, grains, 3);
+  ColumnMap columns = held.dilated(smoother.reach());
+  columns.set_top(smoother.top_above(held.top()));
+  Region region(grid);
+  region.set(columns);
+  Field f("f", grid), g("g", grid);
+  const auto solid = [&](int i, int j, int k) {
+    return held.has(i, k) && j < 3 ? 0.3 + 0.1 * j : 0.0;
+  };
+  test::set_field(g, grid, solid);
+  everywhere.solve(g, g);
+  test::set_field(f, grid, [&](int i, int j, int k) {  // elsewhere it is not looked at
+    return columns.has(i, k) && j < columns.top() ? solid(i, j, k) : 1e9;
+  });
+  smoother.solve(f, region);
+  const auto near = test::to_host(f), all = test::to_host(g);
+  Real beyond = 0;
+  test::for_owned_cells(grid, [&](int i, int j, int k) {
+    if (columns.has(i, k) && j < columns.top()) {
+      EXPECT_NEAR(near(i, j, k), all(i, j, k), 1e-12);
+    } else {
+      beyond = std::max(beyond, std::abs(all(i, j, k)));
+    }
+  });
+  EXPECT_LT(beyond, Smoother::kTolerance);
+}
+
+/// Solution as over all columns: in the middle, across the periodic end, in two stretches, each
+/// where one direction is short and where none is.
+TEST(Smoother, WhereGrainsAreIsAsGoodAsEverywhere) {
   for (const std::vector<Column>& grains :
        {std::vector<Column>{{44, 3}, {46, 7}}, {{1, 2}}, {{20, 0}, {62, 9}}}) {
-    const ColumnMap held = map_of(grid, grains, 3);
-    ColumnMap columns = held.dilated(smoother.reach());
-    columns.set_top(smoother.top_above(held.top()));
-    Region region(grid);
-    region.set(columns);
-    Field f("f", grid), g("g", grid);
-    const auto solid = [&](int i, int j, int k) {
-      return held.has(i, k) && j < 3 ? 0.3 + 0.1 * j : 0.0;
-    };
-    test::set_field(g, grid, solid);
-    everywhere.solve(g, g);
-    test::set_field(f, grid, [&](int i, int j, int k) {  // elsewhere it is not looked at
-      return columns.has(i, k) && j < columns.top() ? solid(i, j, k) : 1e9;
-    });
-    smoother.solve(f, region);
-    const auto near = test::to_host(f), all = test::to_host(g);
-    Real beyond = 0;
-    test::for_owned_cells(grid, [&](int i, int j, int k) {
-      if (columns.has(i, k) && j < columns.top()) {
-        EXPECT_NEAR(near(i, j, k), all(i, j, k), 1e-12);
-      } else {
-        beyond = std::max(beyond, std::abs(all(i, j, k)));
-      }
-    });
-    EXPECT_LT(beyond, Smoother::kTolerance);
+    compare_with_everywhere(grid_of({90, 12, 10}), grains);
+    std::vector<Column> turned;
+    for (const auto& [i, k] : grains) turned.push_back({k, i});
+    compare_with_everywhere(grid_of({10, 12, 90}), turned);
   }
+  for (const std::vector<Column>& grains :
+       {std::vector<Column>{{44, 33}, {46, 37}}, {{1, 78}}, {{20, 15}, {62, 58}}})
+    compare_with_everywhere(grid_of({90, 12, 80}), grains);
 }
 
 TEST(Smoother, WithoutALengthNothingSpreads) {
