@@ -36,6 +36,7 @@ class Contact:
         a = np.sqrt(r_eff * overlap)
         self.k = 1.5 * 4 / 3 * e_eff * a, 8 * g_eff * a
         self.gamma = [2 * np.sqrt(5 / 6) * damping * np.sqrt(modulus * m_eff * a) for modulus in (2 * e_eff, 8 * g_eff)]
+        self.gamma[1] *= grains.get("tangential_damping", 1)
 
 
 def pairs_of(x, r, periods):

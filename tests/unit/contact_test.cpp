@@ -17,9 +17,7 @@ constexpr Elastic kGrain{.youngs_modulus = 5e6, .poisson_ratio = 0.45};
 constexpr Real kRadius = 1e-4, kDensity = 2500;
 
 HertzMindlin law(Real restitution) {
-  return {.e_eff = effective_youngs_modulus(kGrain, kGrain),
-          .g_eff = effective_shear_modulus(kGrain, kGrain),
-          .damping = restitution < 1 ? damping_ratio(restitution) : 0};
+  return HertzMindlin::from({.a = kGrain, .b = kGrain, .restitution = restitution});
 }
 
 /// contact_force with the stiffness that the law has for this pair.
@@ -273,7 +271,8 @@ TEST(Rolling, ConstantTorqueOpposesAndAllVanishWithoutFriction) {
 }
 
 TEST(LinearSpring, DeliversTheRestitution) {
-  const auto spring = LinearSpring::from({.restitution = 0.5, .linear_stiffness = 100});
+  const auto spring =
+      LinearSpring::from({.a = {}, .b = {}, .restitution = 0.5, .linear_stiffness = 100});
   const Real m = 1e-8, dt = 1e-10;
   Real x = 0, v = 0.1;
   do {
@@ -288,7 +287,8 @@ TEST(LinearSpring, DeliversTheRestitution) {
 // that springs with k_t = 2/7 k_n swing with one period. Both dashpots have the same damping ratio.
 TEST(LinearSpring, SwingsAcrossAsItSwingsAlong) {
   const Real damping = damping_ratio(0.5), m = 1e-8;
-  const auto spring = LinearSpring::from({.restitution = 0.5, .linear_stiffness = 100});
+  const auto spring =
+      LinearSpring::from({.a = {}, .b = {}, .restitution = 0.5, .linear_stiffness = 100});
   const ContactStiffness k = spring(0, m, 1);  // at 1 m
   EXPECT_NEAR(k.k_t / (Real(2) / 7 * m) / (k.elastic / m), 1, 1e-14);
   EXPECT_NEAR(k.gamma_n / (2 * std::sqrt(m * k.elastic)), damping, 1e-14);
