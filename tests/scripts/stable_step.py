@@ -15,7 +15,8 @@ def compared(tangential_damping):
         run = Path(folder) / "heap"
         command = [os.environ["BARCHAN_PROGRAM"], "run", "configs/heap-3k.toml", "--quiet", "--out", run]
         keys = ["--set", "time.end=0.12", "--set", f"grains.tangential_damping={tangential_damping}"]
-        subprocess.run([*command, *keys], check=True, stdout=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"})
+        environment = {**os.environ, "OMP_NUM_THREADS": "1"}
+        subprocess.run([*command, *keys], check=True, stdout=subprocess.DEVNULL, env=environment)
         exact, written = compare(run)
         print(f"tangential damping {tangential_damping}: {exact:.4g} s, in history.csv {written:.4g} s")
         return written / exact
