@@ -160,6 +160,7 @@ void Smoother::solve(Field& f, const Region& region) const {
       stretches(columns.stretches_of_x(1), grid_.nx, grid_.nx_all, even_.x, is_cut_along_x(grid_));
   const auto along_z =
       stretches(columns.stretches_of_z(1), grid_.nz, grid_.nz_all, even_.z, is_cut_along_z(grid_));
+  if (along_x.empty() || along_z.empty()) return;  // the last grain has left
   if (along_x.front().whole && along_z.front().whole) {
     Field all = f;
     for_each_cell("smoother: all columns", grid_, TakeIn{region.ref(), f, 0, 0, all});

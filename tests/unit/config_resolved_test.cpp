@@ -171,7 +171,7 @@ TEST(ConfigKeys, ThePageOfKeysIsThatOfTheProgram) {
 
 TEST(ConfigKeys, ASectionFitsTheTerminal) {
   const std::string grains = keys_text("grains");
-  for (const char* part : {"[grains]\nThe grains", "\n  sliding_friction  coefficient of sliding",
+  for (const char* part : {"[grains]\nThe grains", "\n  tangential_damping  factor on the dashpots",
                            "default 0.6", "[kg/m3]"})
     EXPECT_NE(grains.find(part), std::string::npos) << grains;
   EXPECT_EQ(grains.find("drop_height"), std::string::npos);

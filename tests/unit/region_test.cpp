@@ -199,6 +199,19 @@ TEST(Smoother, WhereGrainsAreIsAsGoodAsEverywhere) {
     compare_with_everywhere(grid_of({90, 12, 80}), grains);
 }
 
+/// A map of columns that has none: the last grain has left.
+TEST(Smoother, WithoutColumnsNothingIsSolved) {
+  const Grid grid = grid_of({90, 12, 80});
+  const Smoother smoother(grid, std::make_shared<const PlaneFft>(grid), {}, 4e-4);
+  Region region(grid);
+  region.set(map_of(grid, {}, 5));  // rows that smoothing would reach
+  Field f("f", grid);
+  test::set_field(f, grid, [](int, int, int) { return 1.0; });
+  smoother.solve(f, region);
+  const auto after = test::to_host(f);
+  test::for_owned_cells(grid, [&](int i, int j, int k) { ASSERT_EQ(after(i, j, k), 1); });
+}
+
 TEST(Smoother, WithoutALengthNothingSpreads) {
   const Grid grid = grid_of({12, 4, 5});
   const Smoother smoother(grid, std::make_shared<const PlaneFft>(grid), {}, 0);
