@@ -35,7 +35,7 @@ struct ExchangeOfGrain {
   /// Interlayer drag of the grain over the step, at least beta_p dt [kg].
   KOKKOS_INLINE_FUNCTION Real rows_dt(const GridRef& grid, int g, const LayerVelocity& u) const {
     const GrainKinematics grain = grains(g);
-    const Vec3 slip = Vec3{u.mean_x, 0, u.mean_z} - Vec3{grain.u.x, 0, grain.u.z};
+    const Vec3 slip = Vec3{u.x.over_grain, 0, u.z.over_grain} - Vec3{grain.u.x, 0, grain.u.z};
     return dt * stresslet(grid, u.rows, grain, slip, u.solid, on_grains.beta(g));
   }
   KOKKOS_INLINE_FUNCTION Real most_dt(int g) const {
@@ -153,23 +153,23 @@ struct DepositGrains {
       const Real w = rows.weight(r);
       const Real C_j = rows_dt * interlayer_drag_below(rows, j);
       cache.at({u.i, j, u.k}).impulse_y += deposits.impulse.encode(w * impulse.y);
+      const auto given = [&](const VelocityAtFaces& v, int side, Real limited, Real along) {
+        return along + rows_dt * (v.in_row[side][r] - v.mean[side]) +
+               limited * (v.mean[side] - v.over_grain);
+      };
       const auto along_x = [&](int side) {
         const Real c = u.x_faces.weight(side);
         if (c == 0) return;
-        const Real faster = rows_dt * (u.x[side][r] - u.mean_of_x[side]) +
-                            limited_x * (u.mean_of_x[side] - u.mean_x);
         CellDeposit& cell = cache.at(exchange.x_face(u, side, j));
         cell.interlayer_drag_x += deposits.interlayer_drag.encode(c * C_j);
-        cell.impulse_x += deposits.impulse.encode(w * c * (impulse.x + faster));
+        cell.impulse_x += deposits.impulse.encode(w * c * given(u.x, side, limited_x, impulse.x));
       };
       const auto along_z = [&](int side) {
         const Real c = u.z_faces.weight(side);
         if (c == 0) return;
-        const Real faster = rows_dt * (u.z[side][r] - u.mean_of_z[side]) +
-                            limited_z * (u.mean_of_z[side] - u.mean_z);
         CellDeposit& cell = cache.at(exchange.z_face(u, side, j));
         cell.interlayer_drag_z += deposits.interlayer_drag.encode(c * C_j);
-        cell.impulse_z += deposits.impulse.encode(w * c * (impulse.z + faster));
+        cell.impulse_z += deposits.impulse.encode(w * c * given(u.z, side, limited_z, impulse.z));
       };
       along_x(main_x), along_x(1 - main_x);
       along_z(main_z), along_z(1 - main_z);

@@ -237,7 +237,7 @@ struct LayeredFlow {
   KOKKOS_INLINE_FUNCTION Vec3 of_rows(const ConstFaceRef& f, const GrainRows& rows,
                                       const PointStencil& at, Real solid_per_fluid) const {
     const LayerVelocity v(rows, at, f, solid_per_fluid);
-    return {v.mean_x, interpolate(f.y, at.centres, at.y_face), v.mean_z};
+    return {v.x.over_grain, interpolate(f.y, at.centres, at.y_face), v.z.over_grain};
   }
   /// Mean over the parts of a grain in its rows, each at its mean height.
   KOKKOS_INLINE_FUNCTION Vec3 vorticity_of_rows(const GrainRows& rows,

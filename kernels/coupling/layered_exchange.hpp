@@ -71,12 +71,16 @@ struct GrainFaces {
   static constexpr Real kNarrowing = 8;
 };
 
-/// A velocity along the floor in one column of momentum cells, those around its faces.
+/// A velocity along the floor in the columns of momentum cells around the faces of a grain.
 struct ColumnVelocity {
-  const Real* first;      // in row 0
+  const Real* first;      // at the first face, in row 0
+  int to_face;            // to the other face
   int stride_y, to_side;  // to the next row; to the next column across the flow
   Real across;  // distance of the grain's centre from the middle of the column, over its width
 
+  KOKKOS_FORCEINLINE_FUNCTION ColumnVelocity at_face(int side) const {
+    return {first + side * to_face, to_face, stride_y, to_side, across};
+  }
   KOKKOS_FORCEINLINE_FUNCTION Real in_row(int j, int side = 0) const {
     return first[static_cast<std::ptrdiff_t>(stride_y) * j + side * to_side];
   }
@@ -84,6 +88,13 @@ struct ColumnVelocity {
   KOKKOS_FORCEINLINE_FUNCTION Real off_middle(int j, Real here) const {
     return across * limited_slope(here - in_row(j, -1), in_row(j, 1) - here);
   }
+};
+
+/// A velocity along the floor as a grain sees it at its two faces [m/s].
+struct VelocityAtFaces {
+  Real in_row[2][kDividedOffsets];
+  Real mean[2];         // over the rows
+  Real over_grain = 0;  // mean over both
 };
 
 /// Momentum cells that a grain belongs to: those of its rows at these faces of its column.
@@ -104,36 +115,32 @@ struct GrainColumn {
 /// hundred times faster than between the grains, no grain sees the one for the other.
 struct LayerVelocity : GrainColumn {
   const GrainRows& rows;
-  Real x[2][kDividedOffsets], z[2][kDividedOffsets];  // by face and row
-  Real mean_of_x[2], mean_of_z[2];                    // by face
-  Real mean_x = 0, mean_z = 0;                        // mean over the grain
-  Real solid;                                         // solid fraction in the cell of its centre
+  VelocityAtFaces x, z;
+  Real solid;  // solid fraction in the cell of its centre
 
   KOKKOS_INLINE_FUNCTION LayerVelocity(const GrainRows& of_grain, const PointStencil& at,
                                        const ConstFaceRef& u, Real solid_per_fluid)
       : GrainColumn(at, solid_per_fluid),
         rows(of_grain),
         solid(solid_per_fluid / (1 + solid_per_fluid)) {
-    const Real across_x = at.x_face.t - Real(0.5), across_z = at.z_face.t - Real(0.5);
-    const int main_x = x_faces.main_side(), main_z = z_faces.main_side();
-    add_x(main_x, u, across_z);
-    add_z(main_z, u, across_x);
-    if (x_faces.weight(1 - main_x) > 0) add_x(1 - main_x, u, across_z);
-    if (z_faces.weight(1 - main_z) > 0) add_z(1 - main_z, u, across_x);
+    const Real half = Real(0.5);
+    set(x, x_faces, {&u.x(i, 0, k), 1, u.x.stride_y, u.x.stride_z, at.z_face.t - half});
+    set(z, z_faces, {&u.z(i, 0, k), u.z.stride_z, u.z.stride_y, 1, at.x_face.t - half});
   }
 
  private:
-  KOKKOS_FORCEINLINE_FUNCTION void add_x(int side, const ConstFaceRef& u, Real across) {
-    const ColumnVelocity column{&u.x(i + side, 0, k), u.x.stride_y, u.x.stride_z, across};
-    mean_of_x[side] = in_rows(column, x[side]);
-    mean_x += x_faces.weight(side) * mean_of_x[side];
+  KOKKOS_FORCEINLINE_FUNCTION void set(VelocityAtFaces& v, const GrainFaces& faces,
+                                       const ColumnVelocity& u) const {
+    const int main = faces.main_side();
+    add(v, main, faces, u);
+    if (faces.weight(1 - main) > 0) add(v, 1 - main, faces, u);
   }
-  KOKKOS_FORCEINLINE_FUNCTION void add_z(int side, const ConstFaceRef& u, Real across) {
-    const ColumnVelocity column{&u.z(i, 0, k + side), u.z.stride_y, 1, across};
-    mean_of_z[side] = in_rows(column, z[side]);
-    mean_z += z_faces.weight(side) * mean_of_z[side];
+  KOKKOS_FORCEINLINE_FUNCTION void add(VelocityAtFaces& v, int side, const GrainFaces& faces,
+                                       const ColumnVelocity& u) const {
+    v.mean[side] = in_rows(u.at_face(side), v.in_row[side]);
+    v.over_grain += faces.weight(side) * v.mean[side];
   }
-  /// Sets the velocity in each row; returns the mean over the grain.
+  /// Sets the velocity in each row; returns the mean over the rows.
   KOKKOS_INLINE_FUNCTION Real in_rows(const ColumnVelocity& u, Real (&v)[kDividedOffsets]) const {
     Real mean = 0;
     for (int r = 0; r < rows.n; ++r) {

@@ -51,8 +51,8 @@ TEST(LayeredExchange, AGrainInOneRowSeesALinearProfile) {
   const Water w;
   const auto seen = w.at(w.off_centre(), [&](int j) { return 3 * w.grid.y_centre(j); });
   EXPECT_EQ(seen.rows.n, 1);
-  EXPECT_NEAR(seen.velocity.mean_x, 3 * w.off_centre(), 1e-14);
-  EXPECT_NEAR(seen.velocity.mean_z, -6 * w.off_centre(), 1e-14);
+  EXPECT_NEAR(seen.velocity.x.over_grain, 3 * w.off_centre(), 1e-14);
+  EXPECT_NEAR(seen.velocity.z.over_grain, -6 * w.off_centre(), 1e-14);
 }
 
 // Rising ever faster, rising ever slower: the slope of the flatter side, also on growing rows.
@@ -61,11 +61,11 @@ TEST(LayeredExchange, TheSlopeInARowIsTheFlatterOneAndMakesNoExtremum) {
   const auto expect_slope_of_side = [&](int side, const std::function<Real(Real)>& profile) {
     const auto u = [&](int j) { return profile(w.grid.y_centre(j)); };
     const Real slope = (u(4 + side) - u(4)) / (w.grid.y_centre(4 + side) - w.grid.y_centre(4));
-    EXPECT_NEAR(w.at(w.off_centre(), u).velocity.mean_x, u(4) + slope * 5e-5, 1e-14);
+    EXPECT_NEAR(w.at(w.off_centre(), u).velocity.x.over_grain, u(4) + slope * 5e-5, 1e-14);
   };
   expect_slope_of_side(-1, [](Real y) { return 1e3 * y * y; });
   expect_slope_of_side(1, [](Real y) { return std::sqrt(y); });
-  EXPECT_EQ(w.at(w.off_centre(), [](int j) { return j == 4 ? 1 : 0; }).velocity.mean_x, 1);
+  EXPECT_EQ(w.at(w.off_centre(), [](int j) { return j == 4 ? 1 : 0; }).velocity.x.over_grain, 1);
 }
 
 // Nineteen of the 29 points lie at or above the centre; neither row sees the velocity of the other.
@@ -73,7 +73,7 @@ TEST(LayeredExchange, AGrainBetweenTwoRowsSeesEachByItsPoints) {
   const Water w;
   const auto seen = w.at(w.grid.y_face(4), [](int j) { return j < 4 ? 0 : 1; });
   ASSERT_EQ(seen.rows.n, 2);
-  EXPECT_NEAR(seen.velocity.mean_x, 19.0 / 29, 1e-14);
+  EXPECT_NEAR(seen.velocity.x.over_grain, 19.0 / 29, 1e-14);
   for (const auto& x : seen.velocity.x) {
     EXPECT_EQ(x[seen.rows.find(3)], 0);
     EXPECT_EQ(x[seen.rows.find(4)], 1);
@@ -85,9 +85,9 @@ TEST(LayeredExchange, AcrossTheFlowASlopeMakesNoExtremum) {
   const Water w;
   const Vec3 point{0.004, w.off_centre(), 2.3 * w.grid.dz};
   const auto shear = w.at(point, 1, [&](int, int, int k) { return 7 * w.grid.z_centre(k); });
-  EXPECT_NEAR(shear.velocity.mean_x, 7 * point.z, 1e-14);
+  EXPECT_NEAR(shear.velocity.x.over_grain, 7 * point.z, 1e-14);
   const auto step = w.at(point, 1, [](int, int, int k) { return k < 2 ? 100 : 1; });
-  EXPECT_EQ(step.velocity.mean_x, 1);
+  EXPECT_EQ(step.velocity.x.over_grain, 1);
 }
 
 // A grain between an open and a dense momentum cell: alone it belongs to both, among others to its
@@ -98,7 +98,7 @@ TEST(LayeredExchange, AmongOthersAGrainBelongsToTheNearerMomentumCell) {
     const Vec3 point{(2 + part) * w.grid.dx, w.off_centre(), 2.5 * w.grid.dz};
     const auto at = w.at(point, solid_per_fluid, [](int i, int, int) { return i < 3 ? 1 : 0; });
     EXPECT_NEAR(at.velocity.x_faces.weight(0) + at.velocity.x_faces.weight(1), 1, 1e-15);
-    return at.velocity.mean_x;
+    return at.velocity.x.over_grain;
   };
   EXPECT_NEAR(seen(0.3, 0), 0.7, 1e-12);
   EXPECT_NEAR(seen(0.8, 0), 0.2, 1e-12);
