@@ -51,11 +51,11 @@ void add_kind(std::string& text, const KindNumbers& n) {
   const std::string of = n.name.empty() ? "" : n.name + ": ";
   if (!of.empty()) line(text, "density", "{}{:.6g} kg/m3", of, n.density);
   if (n.at_rest > 0) {
-    const std::string impact =
-        n.impact_speed > 0
-            ? fmt::format(", {:.2g} % in impacts at {:.2g} m/s", 100 * n.at_impact, n.impact_speed)
-            : "";
-    line(text, "overlap", "{}{:.2g} % under {} layers{} (docs/choosing.md: 2 % is good)", of,
+    const std::string impact = n.impact_speed > 0
+                                   ? fmt::format(", {:.2g} % in undamped impacts at {:.2g} m/s",
+                                                 100 * n.at_impact, n.impact_speed)
+                                   : "";
+    line(text, "overlap", "{}{:.2g} % under {} layers{} (docs/choosing.md)", of,
          100 * n.at_rest, kLayersAtRest, impact);
   }
   if (n.fall_velocity > 0)
