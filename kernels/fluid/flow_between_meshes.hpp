@@ -1,22 +1,23 @@
-// A flow that was computed on another mesh of the same box.
+// A flow that was computed on another mesh of the same box, or of one of which this is a part.
 #pragma once
 
 #include "kernels/fluid/interpolation.hpp"
 
 namespace barchan {
 
-/// Sets face vectors and cell values of one grid to those of another over the same domain,
+/// Sets face vectors and cell values of one grid to those of another, which is as large or larger,
 /// trilinear between its nodes; at walls its ghost rows take part. Exact for fields that are linear
 /// along each axis.
 struct FlowFromMesh {
   GridRef from, to;
+  Vec3 corner;  // of this box in the other [m]
   ConstFaceRef u_from, du_dt_from;
   ConstFieldRef p_from, nu_t_from, alpha_from;
   FaceRef u, du_dt;  // velocity [m/s] and its change in time [m/s^2]
   FieldRef p, nu_t, alpha;
 
   KOKKOS_INLINE_FUNCTION PointStencil at(Real x, Real y, Real z) const {
-    return {from, from.box(true), Vec3{x, y, z}};
+    return {from, from.box(true), corner + Vec3{x, y, z}};
   }
   KOKKOS_INLINE_FUNCTION void operator()(int i, int j, int k) const {
     const Real x = to.x_centre(i), y = to.y_centre(j), z = to.z_centre(k);

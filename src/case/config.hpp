@@ -48,8 +48,9 @@ struct InitialConfig {
   std::optional<HeapConfig> pour = {};
   std::vector<HeapConfig> heaps = {};
   std::vector<CraterConfig> craters = {};
-  std::uint64_t seed = 1;  // of the perturbation of "turbulent"
-  int realisation = 1;     // of an ensemble: its random numbers are those of seed + realisation - 1
+  std::optional<std::array<double, 2>> window = {};  // corner of this box in theirs, [x, z] [m]
+  std::uint64_t seed = 1;                            // of the perturbation of "turbulent"
+  int realisation = 1;  // of an ensemble: its random numbers are those of seed + realisation - 1
   template <class Flow>
   bool starts_as() const {
     return fluid == Flow::named.word;

@@ -177,6 +177,9 @@ void add_initial(Sections& all) {
           .c_str());
   key("grains", &I::grains,
       "a table `.csv`, a `.h5`, the end of a case `.toml`, or `{ pour = {...} }`");
+  key("window", &I::window, any, "m",
+      "[x, z]: place of this box in that of the cases of `fluid` and `grains`, of which it is a "
+      "part");
   key("seed", &I::seed, "random seed of the perturbations of \"turbulent\"");
   key("realisation", &I::realisation, between(1, 1000000), "",
       "member of an ensemble: another packing, another instant of the flow");

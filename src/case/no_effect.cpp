@@ -20,6 +20,14 @@ bool is_scheme(const Config& c) {
   return c.coupling.scheme == scheme;
 }
 
+/// Tells if grains or flow come from a file or a case, and no grains are poured.
+bool is_from_files(const Config& c) {
+  const InitialConfig& i = c.initial;
+  bool has_flow = c.fluid.has_value();
+  StartFlows::each([&]<class Flow>() { has_flow = has_flow && !i.starts_as<Flow>(); });
+  return !i.pour && i.heaps.empty() && (has_flow || !i.grains.empty());
+}
+
 bool is_unresolved(const Config& c) { return !is_scheme<CouplingScheme::resolved>(c); }
 constexpr const char* kWhereResolved = "must be absent with scheme = \"resolved\"";
 
@@ -66,6 +74,9 @@ constexpr Need kNeeds[] = {
     {"initial.grains.pour.centre", "initial.grains.pour.shape",
      [](const Config& c) { return c.initial.pour->shape != HeapShape::bed; },
      "must be absent with shape = \"bed\", which covers the floor"},
+    {"initial.window", "initial.grains", is_from_files,
+     "must be absent where grains are poured, and where neither they nor the flow come from a file "
+     "or a case"},
     {"output.fields_interval", "fluid", has_fluid, kWithoutFluid},
     {"output.dune_interval", "grains", has_grains, kWithoutGrains},
     {"output.grains_interval", "grains", has_grains, kWithoutGrains},

@@ -189,6 +189,16 @@ void check_statistics(const Config& c, Findings& found) {
 
 }  // namespace
 
+/// Checks that the window of a case lies in the box of the case that it starts from.
+void check_window(const Config& c, const Config& start, Findings& found) {
+  const auto [x, z] = *c.initial.window;
+  const bool fits = x >= 0 && x + c.size[0] <= start.size[0] && z >= 0 &&
+                    z + c.size[2] <= start.size[2] && c.size[1] <= start.size[1];
+  found.error_if(!fits, {"initial.window", "domain.size"},
+                 "must lie with the whole domain in the box of the other case, [{}] m",
+                 fmt::join(start.size, ", "));
+}
+
 std::vector<Finding> check_start(const Config& c, const Config& start, bool flow) {
   Findings found;
   const std::string key = flow ? "initial.fluid" : "initial.grains";
@@ -198,7 +208,8 @@ std::vector<Finding> check_start(const Config& c, const Config& start, bool flow
     const std::string problem = unknown_kinds(*c.grains, names_of_kinds(*start.grains));
     found.error_if(!problem.empty(), {key, "grains.kind"}, "must {}", problem);
   }
-  if (!flow || !c.fluid || !start.fluid) return found.all;
+  if (c.initial.window) check_window(c, start, found);
+  if (!flow || !c.fluid || !start.fluid || c.initial.window) return found.all;
   found.error_if(start.size != c.size, {key, "domain.size"},
                  "must have the same domain; its size is [{}] m", fmt::join(start.size, ", "));
   return found.all;

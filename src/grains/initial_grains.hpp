@@ -32,6 +32,17 @@ struct InitialGrains {
     u.push_back(velocity);
     omega.push_back(spin);
   }
+  /// Removes those that are not marked.
+  void keep(const std::vector<bool>& marked) {
+    const auto keep_of = [&marked](auto& values) {  // which may be empty
+      std::size_t n = 0;
+      for (std::size_t g = 0; g < values.size(); ++g)
+        if (marked[g]) values[n++] = values[g];
+      values.resize(n);
+    };
+    keep_of(id), keep_of(diameter), keep_of(x), keep_of(u), keep_of(omega);
+    keep_of(kind), keep_of(heap);
+  }
 };
 
 }  // namespace barchan

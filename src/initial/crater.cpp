@@ -35,28 +35,13 @@ double surface_within(const CraterConfig& crater, const InitialGrains& grains) {
   return tops.empty() ? 0 : sum / static_cast<double>(tops.size());
 }
 
-/// Keeps the marked entries of an array that may be empty.
-template <class T>
-void keep(const std::vector<bool>& kept, std::vector<T>& values) {
-  std::size_t n = 0;
-  for (std::size_t g = 0; g < values.size(); ++g)
-    if (kept[g]) values[n++] = values[g];
-  values.resize(n);
-}
-
 void cut(const CraterConfig& crater, double surface, InitialGrains& grains) {
   std::vector<bool> kept;
   for (const Vec3& x : grains.x) {
     const double r = distance_from(crater, x) / crater.radius;
     kept.push_back(r >= 1 || x.y <= surface - crater.depth * (1 - r * r));
   }
-  keep(kept, grains.id);
-  keep(kept, grains.diameter);
-  keep(kept, grains.x);
-  keep(kept, grains.u);
-  keep(kept, grains.omega);
-  keep(kept, grains.kind);
-  keep(kept, grains.heap);
+  grains.keep(kept);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@
 #include "src/initial/map_flow.hpp"
 #include "src/initial/overlaps.hpp"
 #include "src/initial/pour.hpp"
+#include "src/initial/window.hpp"
 #include "src/restart/state_file.hpp"
 
 namespace barchan {
@@ -49,9 +50,11 @@ bool same_mesh(const FluidCase& a, const FluidCase& b) {
 /// Copies a flow on the same mesh bit for bit; interpolates one on another mesh.
 void read_flow(const SettledCase& the_case, const CheckpointReader& file, FluidState& fluid) {
   const FluidCase other = case_of_flow(the_case.config, file);
-  if (same_mesh(the_case.fluid(), other)) return load_flow(file, fluid);
+  const auto& window = the_case.config.initial.window;
+  if (!window && same_mesh(the_case.fluid(), other)) return load_flow(file, fluid);
   FluidState whole = make_fluid_state(make_grid(other));
   load_flow(file, whole);
+  if (window) return map_window(the_case.fluid(), other.fluid, *window, whole, fluid);
   map_flow(the_case.fluid(), whole, fluid);
 }
 
@@ -189,6 +192,7 @@ InitialGrains checked_grains(const SettledCase& the_case, const std::filesystem:
   check_free_ids(config, grains.last_id, source);
   if (heaps.empty()) take_kinds(grains, *config.grains, source);
   check_sizes(extreme_sizes(grains), config, source);
+  if (config.initial.window) cut_to_window(config, box_of(config), grains);
   wrap(grains, config);
   check_inside(grains, config, source);
   cut_craters(config.initial.craters, grains);

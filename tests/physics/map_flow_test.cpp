@@ -95,6 +95,26 @@ TEST(MapFlow, TurbulentFlowKeepsItsBulkVelocityAndHasNoDivergence) {
   }
 }
 
+TEST(MapFlow, AWindowHasTheFlowOfItsPlace) {
+  FlowRun from(mesh({20, 8, 10}, 2e-3));
+  // A row of points repeats after 0.05 m across; from 0.0125 to 0.0375 m it is linear.
+  const auto at = [](double y, double z) { return 20 * y + 7 * z; };
+  test::set_field(from.fluid.alpha_f, from.grid, [](int, int, int) { return 1.0; });
+  from.start([&](int, int j, int k) { return at(from.h.y(j), (k + 0.5) * 0.005); });
+  Config part = test::flow_config({16, 12, 10}, {0.03, 0.012, 0.02}, 0);
+  part.fluid->top = WallFlow::no_slip;
+  FlowRun to(part);
+  map_window(to.config, from.config.fluid, {0.04, 0.015}, from.fluid, to.fluid);
+  const auto u = test::to_host(to.fluid.u.x), across = test::to_host(to.fluid.u.z);
+  for (int k = 0; k < 10; ++k)
+    for (int j = 1; j < 12; ++j) {  // the lowest lies between a wall and a node
+      const double y = to.h.y(j), z = 0.015 + (k + 0.5) * 0.002;
+      if (y < from.h.y(0)) continue;
+      EXPECT_NEAR(u(3, j, k), at(y, z), 1e-12) << "row " << j << ", " << k;
+      EXPECT_NEAR(across(3, j, k), 0, 1e-12);
+    }
+}
+
 TEST(MapFlow, AFlowAcrossKeepsItsBulkVelocity) {
   Config coarse = mesh({24, 16, 18}, 5e-4), fine = mesh({36, 30, 20}, 2e-4);
   coarse.fluid->mean_velocity = fine.fluid->mean_velocity = {0, -0.28};
