@@ -188,7 +188,7 @@ struct FixedPoint {
 };
 
 /// Finest scale with which sums up to `largest` stay inside 62 bits.
-inline FixedPoint fixed_point_for(Real largest) {
+KOKKOS_INLINE_FUNCTION FixedPoint fixed_point_for(Real largest) {
   if (!(largest > 0)) return {};
   return {Kokkos::pow(Real(2), Kokkos::floor(Kokkos::log2(Real(4.6e18) / largest)))};
 }

@@ -11,16 +11,18 @@ struct FluidOnGrains {
   Kokkos::View<Vec3*> u_f;  // fluid velocity as the fluid step begins [m/s]
   // acceleration of the grain's share of fluid, by all but the grain [m/s^2]
   Kokkos::View<Vec3*> acceleration;
-  Kokkos::View<Real*> inv_fluid_mass;  // 1 / mass of that share [1/kg]; 0: u_f does not change
-  Kokkos::View<Real*> beta;            // [kg/s]
-  Kokkos::View<Vec3*> explicit_force;  // weight, buoyancy, pressure gradient, ... [N]
-  Kokkos::View<Real*> added_mass;      // [kg]
-  Kokkos::View<Vec3*> impulse;         // impulse of drag and added mass on the grain so far [N s]
-  Kokkos::View<Vec3*> u_start;         // velocity as the fluid step began [m/s]
-  Kokkos::View<Vec3*> omega_f;         // half the vorticity of the fluid [rad/s]
-  Kokkos::View<Real*> beta_r;          // torque = beta_r (omega_f - omega) [N m s]
-  bool has_fluid = false;              // without fluid, only explicit_force is set
-  bool has_torque = false;             // torque of the fluid: omega_f and beta_r are set
+  Kokkos::View<Real*> inv_fluid_mass;   // 1 / mass of that share [1/kg]; 0: u_f does not change
+  Kokkos::View<Real*> beta;             // [kg/s]
+  Kokkos::View<Vec3*> explicit_force;   // weight, buoyancy, pressure gradient, ... [N]
+  Kokkos::View<Real*> added_mass;       // [kg]
+  Kokkos::View<Vec3*> impulse;          // impulse of drag and added mass on the grain so far [N s]
+  Kokkos::View<Vec3*> u_start;          // velocity as the fluid step began [m/s]
+  Kokkos::View<Vec3*> omega_f;          // half the vorticity of the fluid [rad/s]
+  Kokkos::View<Real*> beta_r;           // torque = beta_r (omega_f - omega) [N m s]
+  Kokkos::View<Vec3*> explicit_torque;  // torque of a resolved flow [N m]; else empty
+  bool has_fluid = false;               // without fluid, only explicit_force is set
+  bool has_torque = false;              // torque of the fluid: omega_f and beta_r are set
+  bool is_resolved = false;             // explicit_force and explicit_torque are all there is
 
   /// Velocity of the fluid that the grain carries along, `elapsed` [s] into the fluid step [m/s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 u_f_after(Real elapsed, int g) const {
@@ -37,6 +39,9 @@ struct ExchangeOnGrains {
   // force of a resolved flow [N]; empty if the flow is unresolved
   Kokkos::View<Vec3*> resolved_force;
   Kokkos::View<Vec3*> resolved_torque;  // torque of a resolved flow about the centre [N m]
+  // momentum [N s] and angular momentum [N m s] of the water inside; empty unless grains move in a
+  // resolved flow
+  Kokkos::View<Vec3*> inner_momentum, inner_spin;
 };
 
 /// Begins a fluid step: sets the impulse to zero and stores the velocities to compare with.

@@ -9,8 +9,12 @@
 
 namespace barchan {
 
-/// Effect of the fluid on the grains: none, a force, or a force and a torque.
-enum class FluidEffect { none, force, force_and_torque };
+/// Effect of the fluid on the grains: none, a force, a force and a torque; or both of a flow that
+/// is resolved around them. That flow has no velocity of its own at a grain: its slip is zero.
+enum class FluidEffect { none, force, force_and_torque, resolved };
+KOKKOS_FORCEINLINE_FUNCTION constexpr bool has_slip(FluidEffect effect) {
+  return effect == FluidEffect::force || effect == FluidEffect::force_and_torque;
+}
 
 /// Part of velocity Verlet in one pass: half a kick and a drift before the first grain step;
 /// between two grain steps a half kick of each and the drift of the second; half a kick after the
@@ -46,7 +50,8 @@ struct GrainMotion {
           s.omega_skin.store(q, grain.omega_skin());
       s.force.store(q, sums[q].force), s.torque.store(q, sums[q].torque);
     }
-    const bool expired = !fluid.has_fluid ? advance<moves, FluidEffect::none>(s, begin, n)
+    const bool expired = !fluid.has_fluid    ? advance<moves, FluidEffect::none>(s, begin, n)
+                         : fluid.is_resolved ? advance<moves, FluidEffect::resolved>(s, begin, n)
                          : fluid.has_torque
                              ? advance<moves, FluidEffect::force_and_torque>(s, begin, n)
                              : advance<moves, FluidEffect::force>(s, begin, n);
@@ -87,12 +92,13 @@ struct GrainMotion {
   template <FluidEffect effect>
   KOKKOS_FORCEINLINE_FUNCTION MotionCoefficients coefficients(int g, Real mass, Real radius) const {
     MotionCoefficients c{.mass = mass, .inertia_moment = sphere_inertia(mass, radius)};
-    if constexpr (effect != FluidEffect::none) {
+    if constexpr (has_slip(effect)) {
       c.inv_fluid_mass = fluid.inv_fluid_mass(g);
       c.beta = fluid.beta(g);
       c.added_mass = fluid.added_mass(g);
     }
     if constexpr (effect == FluidEffect::force_and_torque) c.beta_r = fluid.beta_r(g);
+    if constexpr (effect == FluidEffect::resolved) c.added_mass = fluid.added_mass(g);
     return c;
   }
   template <FluidEffect effect>
@@ -100,11 +106,16 @@ struct GrainMotion {
     GrainForces f;
     f.force = s.force.vec(q) + fluid.explicit_force(g);
     f.torque = s.torque.vec(q);
-    if constexpr (effect != FluidEffect::none) {
+    if constexpr (has_slip(effect)) {
       f.u_f = fluid.u_f_after(elapsed, g);
       f.acceleration = fluid.acceleration(g);
     }
     if constexpr (effect == FluidEffect::force_and_torque) f.omega_f = fluid.omega_f(g);
+    if constexpr (effect == FluidEffect::resolved) {
+      f.u_f = s.u_m.vec(q);
+      f.acceleration = fluid.acceleration(g);
+      f.torque += fluid.explicit_torque(g);
+    }
     return f;
   }
 };

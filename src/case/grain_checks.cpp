@@ -7,6 +7,7 @@
 
 #include "src/case/derived.hpp"
 #include "src/case/feed_checks.hpp"
+#include "src/case/immersed_checks.hpp"
 #include "src/case/kind_checks.hpp"
 #include "src/fluid/mesh.hpp"
 #include "src/grains/kinds.hpp"
@@ -88,6 +89,7 @@ void check_smoothing(const Config& c, const FluidNumbers& flow, double d_mean, F
 /// al. (2022) holds for the smallest cell.
 void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
   const KeyNames keys{"fluid.first_cell_height", "fluid.cells", "grains.sizes", "domain.size"};
+  if (is_immersed(c.coupling, *c.grains)) return check_immersed_cells(c, n, found);
   if (c.coupling.scheme == CouplingScheme::resolved) {
     found.warning_if(std::max({n.column_ratio, n.width_ratio, n.floor_ratio}) > 1.0 / 8, keys,
                      "makes cells wider than an eighth of a mean grain: too few for the flow "
@@ -140,6 +142,7 @@ double push_of_a_point(const Config& c, const Derived& derived) {
 /// without.
 void check_push(const Config& c, const Derived& derived, Findings& found) {
   if (c.grains->frozen || !c.coupling.alpha_time_derivative) return;
+  if (c.coupling.scheme == CouplingScheme::resolved) return;  // there are no points
   const double push = push_of_a_point(c, derived);
   found.warning_if(push > 0.5,
                    {"coupling.alpha_time_derivative", "time.fluid_step",
@@ -206,9 +209,7 @@ void check_grains(const Config& c, Findings& found) {
                  "must be absent unless contact_model = \"linear\"");
   check_floor(grains, c.size, found);
   check_kinds(grains, found);
-  found.error_if(c.coupling.scheme == CouplingScheme::resolved && !grains.frozen,
-                 {"coupling.scheme", "grains.frozen"},
-                 "must come with grains.frozen = true: the flow is resolved around frozen grains");
+  if (c.fluid && is_immersed(c.coupling, grains)) check_immersed(c, found);
   found.error_if(c.fluid && grains.ambient, {"grains.ambient", "fluid"},
                  "contradicts [fluid]: still water or a computed flow");
   check_following(c, found);

@@ -143,7 +143,7 @@ void add_coupling(Sections& all) {
   key("scheme", &C::scheme,
       "exchange of momentum: layer by layer over the height of a grain; with the flow interpolated "
       "to its centre; likewise, then smoothed; as in CFDEM; or none: the flow is resolved around "
-      "frozen grains");
+      "the grains");
   key("smoothing_length", &C::smoothing_length, between(0, 1e6), "m",
       "smoothing length of the void fraction, and of the exchange if that is smoothed; 0: no "
       "smoothing")

@@ -26,11 +26,18 @@ class RebuildSeconds {
   double before_;
 };
 
+/// Flow around immersed grains fills them, so it has no fraction.
+std::unique_ptr<FluidSolver> make_solver(const CoupledCase& config, const Grid& grid) {
+  if (config.grains && is_immersed(config.coupling, config.grains->grains))
+    return std::make_unique<FluidSolver>(*config.fluid, grid, Fraction::uniform);
+  return std::make_unique<FluidSolver>(*config.fluid, grid);
+}
+
 }  // namespace
 
 CoupledStep::CoupledStep(const CoupledCase& config, SystemState& state)
     : dt_(config.time.fluid_step), n_substeps_(grain_substeps(config.time)) {
-  if (state.fluid) fluid_ = std::make_unique<FluidSolver>(*config.fluid, state.fluid->grid);
+  if (state.fluid) fluid_ = make_solver(config, state.fluid->grid);
   if (!state.grains) return;
   const GrainConfig& grains = config.grains->grains;
   frozen_ = grains.frozen;
@@ -42,7 +49,8 @@ CoupledStep::CoupledStep(const CoupledCase& config, SystemState& state)
     add_fluid(*state.grains);
     const CouplingConfig& coupling = config.coupling;
     add_exchange(*state.grains, coupling.forces);
-    if (coupling.scheme == CouplingScheme::resolved) add_resolved_forces(*state.grains);
+    if (coupling.scheme == CouplingScheme::resolved)
+      (frozen_ ? add_resolved_forces : add_immersed)(*state.grains);
     fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(grains), coupling.forces);
     exchange_ = make_exchange_scheme(config, *fluid_, *state.grains, state.fluid->grid);
     grains_->list().use_scratch(ScratchMemory(fluid_->workspace().of_any_bits()));

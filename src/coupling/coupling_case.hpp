@@ -36,6 +36,11 @@ struct CouplingConfig {
   bool operator==(const CouplingConfig&) const = default;
 };
 
+/// Tells if grains move in a flow that is resolved around them.
+inline bool is_immersed(const CouplingConfig& coupling, const GrainConfig& grains) {
+  return coupling.scheme == CouplingScheme::resolved && !grains.frozen;
+}
+
 /// Input of the coupled step, settled once.
 struct CoupledCase {
   CouplingConfig coupling;

@@ -4,6 +4,7 @@
 
 #include "src/coupling/centred_exchange.hpp"
 #include "src/coupling/cfdem_exchange.hpp"
+#include "src/coupling/immersed_flow.hpp"
 #include "src/coupling/layered_exchange.hpp"
 #include "src/coupling/resolved_flow.hpp"
 
@@ -23,6 +24,8 @@ std::unique_ptr<ExchangeScheme> make_exchange_scheme(const CoupledCase& config, 
     case CouplingScheme::cfdem:
       return std::make_unique<CfdemExchange>(of, c.cfdem.smooth_exchange);
     case CouplingScheme::resolved:
+      if (is_immersed(c, config.grains->grains))
+        return std::make_unique<ImmersedFlow>(config, solver, grains, grid);
       return std::make_unique<ResolvedFlow>(config, solver, grid);
   }
   throw std::logic_error("a scheme without a class");

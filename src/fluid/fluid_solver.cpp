@@ -1,5 +1,7 @@
 #include "src/fluid/fluid_solver.hpp"
 
+#include <utility>
+
 #include "kernels/fluid/field_algebra.hpp"
 #include "kernels/fluid/wale.hpp"
 #include "src/parallel/cell_reductions.hpp"
@@ -55,11 +57,18 @@ void FluidSolver::set_solids(const Solids& solids) {
   list_terms();
 }
 
+void FluidSolver::add_term(std::shared_ptr<FlowTerm> term, std::size_t numbers) {
+  added_.push_back(std::move(term));
+  numbers_ = DeviceReductions("fluid: numbers", kOfTerms + numbers);
+  list_terms();
+}
+
 /// Regions of grains hold those of bodies, and come later.
 void FluidSolver::list_terms() {
   terms_.clear();
   if (bodies_) terms_.push_back(bodies_);
   if (grains_) terms_.push_back(grains_);
+  terms_.insert(terms_.end(), added_.begin(), added_.end());
 }
 
 const std::vector<BodyLoad>& FluidSolver::body_loads() const {

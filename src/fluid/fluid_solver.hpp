@@ -57,6 +57,8 @@ class FluidSolver {
   /// Makes the flow go round these, which hold the bodies of the case. The solver must be of a
   /// variable fraction, and has no exchange from now on.
   void set_solids(const Solids& solids);
+  /// Adds a term, which may use so many numbers from kOfTerms on. The solver has no bodies.
+  void add_term(std::shared_ptr<FlowTerm> term, std::size_t numbers);
   /// Loads of the last step on the bodies of the case, in their order, then on the frozen grains.
   const std::vector<BodyLoad>& body_loads() const;
   /// Bodies of the flow; null without.
@@ -125,7 +127,7 @@ class FluidSolver {
   std::unique_ptr<PressureSolver> pressure_;
   std::shared_ptr<BodiesInFlow> bodies_;
   std::shared_ptr<GrainsInFlow> grains_;
-  std::vector<std::shared_ptr<FlowTerm>> terms_;
+  std::vector<std::shared_ptr<FlowTerm>> terms_, added_;
   FlowRegions everywhere_, nowhere_;
   const FlowRegions* regions_ = &nowhere_;  // of this step
   DeviceReductions numbers_;                // FlowNumber

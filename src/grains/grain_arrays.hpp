@@ -18,6 +18,7 @@ void for_each_grain_array(State& s, const Action& action) {
                        unsigned uses = 0) {
     action(GrainArray{name, unit, allocated, uses}, array);
   };
+  const unsigned of_moving = f.is_resolved ? unsigned{kRestart} : 0u;  // frozen: not read
   // clang-format off
   add(s.id,               "id",               "1",    always,     kRestart | kGhosts);
   add(s.kin,              "kin",              "SI",   always,     kRestart | kGhosts | kGatherReads |
@@ -36,7 +37,7 @@ void for_each_grain_array(State& s, const Action& action) {
   add(s.body_torque,      "body_torque",      "N m",  by_solver,  kRestart);
   add(s.body_touching,    "body_touching",    "1",    by_solver,  kRestart);
   add(f.u_f,              "u_f",              "m/s",  with_fluid, kGatherWrites);
-  add(f.acceleration,     "acceleration",     "m/s2", with_fluid, kGatherWrites);
+  add(f.acceleration,     "acceleration",     "m/s2", with_fluid, kGatherWrites | of_moving);
   add(f.inv_fluid_mass,   "inv_fluid_mass",   "1/kg", with_fluid, kGatherWrites | kDepositReads);
   add(f.beta,             "beta",             "kg/s", with_fluid, kGatherWrites | kDepositReads);
   add(f.explicit_force,   "explicit_force",   "N",    always,     kGatherWrites);
@@ -46,8 +47,11 @@ void for_each_grain_array(State& s, const Action& action) {
   add(e.stress_force,     "stress_force",     "N",    with_flow,  kGatherWrites);
   add(e.added_mass_force, "added_mass_force", "N",    with_flow,  kGatherWrites | kDepositReads);
   add(e.lift,             "lift",             "N",    with_lift,  kGatherWrites | kDepositReads);
-  add(e.resolved_force,   "resolved_force",   "N",    when_resolved);
-  add(e.resolved_torque,  "resolved_torque",  "N m",  when_resolved);
+  add(e.resolved_force,   "resolved_force",   "N",    when_resolved, of_moving);
+  add(e.resolved_torque,  "resolved_torque",  "N m",  when_resolved, of_moving);
+  add(e.inner_momentum,   "inner_momentum",   "N s",  when_immersed, kRestart);
+  add(e.inner_spin,       "inner_spin",       "N m s", when_immersed, kRestart);
+  add(f.explicit_torque,  "explicit_torque",  "N m",  when_immersed);
   add(f.omega_f,          "omega_f",          "rad/s", with_torque, kGatherWrites);
   add(f.beta_r,           "beta_r",           "N m s", with_torque, kGatherWrites);
   // clang-format on

@@ -140,6 +140,12 @@ void add_exchange(GrainState& s, const ForceSwitches& forces) {
 
 void add_resolved_forces(GrainState& s) { allocate(s, Allocated::when_resolved); }
 
+void add_immersed(GrainState& s) {
+  add_resolved_forces(s);
+  s.fluid.is_resolved = true;
+  allocate(s, Allocated::when_immersed);
+}
+
 Kokkos::View<Real*> add_extra(GrainState& s, const std::string& name, const std::string& unit,
                               unsigned uses) {
   const Kokkos::View<Real*> values(name, s.kin.extent(0));

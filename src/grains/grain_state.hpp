@@ -26,6 +26,7 @@ enum class Allocated {
   with_lift,
   with_torque,
   when_resolved,
+  when_immersed,
   by_solver
 };
 
@@ -115,6 +116,8 @@ void add_fluid(GrainState& grains);
 void add_exchange(GrainState& grains, const ForceSwitches& forces = {});
 /// Adds the arrays of forces of a flow that is resolved around the grains.
 void add_resolved_forces(GrainState& grains);
+/// The same for grains that move in it.
+void add_immersed(GrainState& grains);
 /// Adds an array of one number for each grain, zero at first; `uses` as in GrainUse.
 Kokkos::View<Real*> add_extra(GrainState& grains, const std::string& name, const std::string& unit,
                               unsigned uses);

@@ -18,7 +18,7 @@ WHY = {
 }
 # Functions of kernels/ for the host: they make functors and views, and read keys of a case.
 HOST = set("""from keys words footprint fault misfit each make place_of with all is of word posts_of narrower OneOf box
-count items_for Field DeviceScalar deposit_stencil_in fixed_point_for glued_floor make_chunks""".split())
+count items_for Field DeviceScalar deposit_stencil_in glued_floor make_chunks""".split())
 NOISE = re.compile(r"""//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])'|^[ \t]*\#(?:\\\n|[^\n])*""",
                    re.S | re.M)
 BRACKETS = {"(": ")", "[": "]", "{": "}"}

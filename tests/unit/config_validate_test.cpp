@@ -96,7 +96,9 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
        "case.toml:8: [grains] linear_stiffness: must be above 0 with contact_model"},
       {grains, "grains.linear_stiffness=10", "must be absent unless contact_model"},
       {both, "coupling.scheme=resolved",
-       "--set coupling.scheme = \"resolved\": must come with grains.frozen = true"},
+       "--set coupling.scheme = \"resolved\": must come with grains.frozen = true where a case has "
+       "a "
+       "boundary_x other than \"periodic\""},
       {both + "[coupling]\nscheme = \"resolved\"\n", "coupling.drag=none",
        "--set coupling.drag = \"none\": must be absent with scheme = \"resolved\""},
       {both, "coupling.centred.void_fraction=centre",

@@ -1,0 +1,50 @@
+#include "src/case/immersed_checks.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "src/grains/kinds.hpp"
+
+namespace barchan {
+
+void check_immersed(const Config& c, Findings& found) {
+  const GrainConfig& grains = *c.grains;
+  const auto refuse = [&](bool has, KeyNames keys, const char* what) {
+    keys.insert(keys.begin(), {"coupling.scheme", "grains.frozen"});
+    found.error_if(has, keys, "must come with grains.frozen = true where a case has {}: {}", what,
+                   "grains that move in a resolved flow do not work with it");
+  };
+  refuse(!c.bodies.empty(), {"body"}, "bodies");
+  refuse(grains.feed.has_value(), {"grains.feed.amount"}, "grains that come in");
+  refuse(grains.boundary_x != GrainBoundaryX::periodic, {"grains.boundary_x"},
+         "a boundary_x other than \"periodic\"");
+  refuse(grains.boundary_z != GrainBoundaryZ::periodic, {"grains.boundary_z"},
+         "a boundary_z other than \"periodic\"");
+  const std::vector<KindConfig> kinds = all_kinds(grains);
+  const auto is_light = [&](const KindConfig& kind) {
+    return kind.density < 0.9 * c.fluid->density;
+  };
+  refuse(std::ranges::any_of(kinds, is_light), {"grains.density", "fluid.density"},
+         "grains of less than 0.9 times the density of the water");
+  refuse(c.fluid->first_cell_height > 0, {"fluid.first_cell_height"}, "rows of different heights");
+}
+
+void check_immersed_cells(const Config& c, const GrainNumbers& n, Findings& found) {
+  const KeyNames keys{"fluid.cells", "domain.size", "grains.sizes"};
+  const double widths[] = {c.size[0] / c.fluid->cells[0], c.size[1] / c.fluid->cells[1],
+                           c.size[2] / c.fluid->cells[2]};
+  const auto [least, most] = std::minmax_element(std::begin(widths), std::end(widths));
+  found.error_if(*most > 1.1 * *least, keys,
+                 "must make cells as long as they are high and wide, within 10 %, where grains "
+                 "move in a resolved flow; they are {:.4g} x {:.4g} x {:.4g} m",
+                 widths[0], widths[1], widths[2]);
+  found.limit(*most / n.d_min, 1.0 / 10, 1.0 / 6, keys,
+              fmt::format("must give the smallest grain 6 cells a diameter or more where grains "
+                          "move in a resolved flow; it has {:.3g}",
+                          n.d_min / *most),
+              fmt::format("gives the smallest grain {:.3g} cells a diameter; below 10 its drag is "
+                          "a few percent too high (docs/theory-resolved.md)",
+                          n.d_min / *most));
+}
+
+}  // namespace barchan

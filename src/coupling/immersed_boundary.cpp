@@ -1,0 +1,132 @@
+#include "src/coupling/immersed_boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/parallel/launch.hpp"
+#include "src/parallel/mirror.hpp"
+
+namespace barchan {
+
+namespace {
+
+constexpr int kLoops = 3;            // of forcing in a step
+constexpr Real kRetraction = 0.35;   // of markers into the grain [cells]
+constexpr Real kReachOfDelta = 1.5;  // [cells]
+
+/// Policy of a team for each grain. On the host a team is one thread, so that sums do not depend on
+/// the number of threads.
+Kokkos::TeamPolicy<> teams(int n_grains) { return {n_grains, kOnHost ? 1 : 128}; }
+
+/// The markers' directions are those of the largest grain: smaller ones have them closer together.
+Markers make_markers(Real h, Real r_max) {
+  const Real retraction = kRetraction * h;
+  const int n = markers_on_sphere((r_max - retraction) / h);
+  const Kokkos::View<Vec3*> direction("immersed: markers", static_cast<std::size_t>(n));
+  const auto on_host = mirror(direction);
+  for (int m = 0; m < n; ++m) on_host(m) = marker_direction(m, n);
+  Kokkos::deep_copy(direction, on_host);
+  return {.direction = direction, .grains = {}, .retraction = retraction, .n = n};
+}
+
+Real width_of_cells(const Grid& grid) { return std::cbrt(grid.dx * (grid.ly / grid.ny) * grid.dz); }
+
+}  // namespace
+
+ImmersedBoundary::ImmersedBoundary(const Grid& grid, Real density, Real r_max)
+    : grid_(grid),
+      density_(density),
+      h_(width_of_cells(grid)),
+      patch_(GrainPatch::of(grid,
+                            r_max + kReachOfDelta * std::max({grid.dx, grid.ly / grid.ny, grid.dz}),
+                            grid.ly / grid.ny)),
+      markers_(make_markers(h_, r_max)),
+      sums_{
+          {"immersed: sums", static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny) *
+                                 static_cast<std::size_t>(grid.nz)}},
+      largest_slip_("immersed: largest slip", kLoops) {}
+
+void ImmersedBoundary::place(const GrainState& grains) {
+  n_grains_ = grains.n;
+  markers_.grains = grains.kin;
+  exchange_ = grains.exchange;
+  const auto n = static_cast<std::size_t>(grains.n),
+             n_markers = n * static_cast<std::size_t>(markers_.n);
+  if (impulse_.extent(0) >= n) return;
+  impulse_ = Kokkos::View<ImpulseOnWater*>("immersed: impulse", n);
+  values_ = {.wanted = Kokkos::View<Vec3*>("immersed: wanted", n_markers),
+             .slip = Kokkos::View<Vec3*>("immersed: slip", n_markers),
+             .given = Kokkos::View<Vec3*>("immersed: given", n_markers)};
+}
+
+LoadsOnGrains ImmersedBoundary::loads(const FaceVector& u, Real dt) const {
+  return {.inner = {patch_, u},
+          .grains = markers_.grains,
+          .given = impulse_,
+          .density = density_,
+          .dt = dt,
+          .exchange = exchange_};
+}
+
+void ImmersedBoundary::start(const FaceVector& u) const {
+  Kokkos::parallel_for("immersed: momentum inside", teams(n_grains_), loads(u, 0));
+}
+
+/// Forcing in loops: what markers give to faces that they share is corrected in the next one.
+void ImmersedBoundary::force(const FlowStep& step) const {
+  const int n = n_grains_ * markers_.n;
+  Kokkos::parallel_for("immersed: velocity wanted", items(n),
+                       WantedAtMarkers{.grid = grid_,
+                                       .markers = markers_,
+                                       .p = step.fluid.p,
+                                       .drive = step.fluid.drive,
+                                       .dt = step.dt,
+                                       .inv_density = 1 / density_,
+                                       .values = values_});
+  for (int loop = 0; loop < kLoops; ++loop) {
+    Kokkos::parallel_reduce("immersed: slip", items(n),
+                            SlipAtMarkers{grid_, markers_, step.u_star, values_},
+                            largest_slip_.largest_into(loop));
+    Kokkos::parallel_for("immersed: spread", items(n),
+                         SpreadSlip{.grid = grid_,
+                                    .markers = markers_,
+                                    .h = h_,
+                                    .slip = values_.slip,
+                                    .largest_slip = largest_slip_.scalar(loop),
+                                    .sums = sums_});
+    Kokkos::parallel_for("immersed: add to flow", items(n_grains_ * patch_.rows()),
+                         AddToFlow{.patch = patch_,
+                                   .grains = markers_.grains,
+                                   .largest_slip = largest_slip_.scalar(loop),
+                                   .sums = sums_,
+                                   .u_star = step.u_star});
+  }
+}
+
+void ImmersedBoundary::after_predict(const FlowStep& step) {
+  if (step.dt == 0 || n_grains_ == 0) return;
+  force(step);
+  const Real dy = grid_.ly / grid_.ny, cell_volume = grid_.dx * dy * grid_.dz;
+  Kokkos::parallel_for("immersed: impulse", teams(n_grains_),
+                       SumOfMarkers{.markers = markers_,
+                                    .h = h_,
+                                    .cell_volume = cell_volume,
+                                    .density = density_,
+                                    .given = values_.given,
+                                    .impulse = impulse_});
+  Kokkos::parallel_reduce("immersed: flow rate", items(n_grains_),
+                          RateTaken{impulse_, dy / (density_ * cell_volume)},
+                          step.numbers.into<Vec3>(kTaken));
+}
+
+void ImmersedBoundary::after_correct(const FlowStep& step) {
+  Kokkos::parallel_for("immersed: loads", teams(n_grains_), loads(step.fluid.u, step.dt));
+  Kokkos::parallel_reduce("immersed: sum of loads", items(n_grains_),
+                          SumOfLoads{exchange_.resolved_force}, step.numbers.into<Vec3>(kOfTerms));
+}
+
+void ImmersedBoundary::report(const DeviceReductions& numbers) {
+  force_on_grains_ = numbers.get<Vec3>(kOfTerms);
+}
+
+}  // namespace barchan

@@ -1,0 +1,167 @@
+// Grains that move in a flow resolved around them: drag of arrays, torque, spin in shear, momentum.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/support/lattice.hpp"
+#include "tests/support/measured.hpp"
+
+namespace barchan {
+namespace {
+
+using namespace test;
+
+constexpr Real kD = 1e-3;    // [m]
+constexpr Real kNu = 1e-4;   // [m^2/s]: creeping flow
+constexpr Real kRho = 1000;  // of the water [kg/m^3]
+constexpr Real kHeld = 1e9;  // density of grains that no force moves [kg/m^3]
+constexpr Real pi = std::numbers::pi_v<Real>;
+
+/// Box without drive, with steps of a twentieth of the time of diffusion over a cell.
+Config immersed_box(const std::array<int, 3>& cells, Real h, Real density) {
+  Config c = water_box(cells, {cells[0] * h, cells[1] * h, cells[2] * h});
+  c.coupling.scheme = CouplingScheme::resolved;
+  c.fluid->kinematic_viscosity = kNu;
+  c.fluid->pressure_gradient = 0;
+  c.grains->density = density;
+  c.grains->skin = 1e-4 * kD;
+  c.time.fluid_step = c.time.grain_step = 0.05 * h * h / kNu;
+  return c;
+}
+
+/// Grains of a simple cubic array: two by two, between planes of symmetry.
+struct Array {
+  static constexpr Real kFraction = 0.064, kDrag = 2.810;  // Zick & Homsy (1982), table 2
+  Real spacing = cubic_spacing(kFraction, kD), h;
+  Config config;
+  explicit Array(int cells, Real density)
+      : h(spacing / cells), config(immersed_box({2 * cells, cells, 2 * cells}, h, density)) {}
+  /// Centres off the cells by parts of a cell along x and z.
+  CoupledRun run(Real off_x = 0.3, Real off_z = 0.2) const {
+    return {config, cubic_lattice({2, 1, 2}, spacing, kD, {off_x * h, 0, off_z * h})};
+  }
+  Real stokes(Real speed) const { return 3 * pi * kNu * kRho * kD * speed; }
+};
+
+/// Drag on held grains over that in the table.
+Real drag_of_array(int cells) {
+  Array array(cells, kHeld);
+  constexpr Real gradient = 10;  // [Pa/m]
+  array.config.fluid->pressure_gradient = gradient;
+  CoupledRun run = array.run();
+  run.advance(10 * cells * cells);
+  const Real speed = run.step.fluid_report().bulk_velocity.x;
+  const Real force = gradient * std::pow(array.spacing, 3);
+  const Vec3 on_grain = force_on_first(run, "force_flow");
+  expect_relative("force on a grain of an array", on_grain.x, force, 1e-2);
+  return force / array.stokes(speed) / Array::kDrag;
+}
+
+TEST(ImmersedGrains, ArrayHasItsDrag) {
+  expect_relative("drag of a cubic array, 8 cells a diameter", drag_of_array(16), 1, 0.05);
+}
+
+TEST(ImmersedGrainsNightly, ArrayHasItsDragOnFinerCells) {
+  expect_relative("drag of a cubic array, 12 cells a diameter", drag_of_array(24), 1, 0.04);
+}
+
+/// Speed of an array that sinks along x through water that flows back, over that of the table.
+Real sinking_speed(int cells, Real ratio) {
+  Array array(cells, ratio * kRho);
+  Config& c = array.config;
+  const Real pull = 1e-2;  // [m/s^2]
+  const Real weight = (ratio - 1) * kRho * volume_of(kD) * pull;
+  c.fluid->pressure_gradient = -weight / std::pow(array.spacing, 3);
+  c.grains->gravity = {pull, 0, 0};
+  CoupledRun run = array.run();
+  run.advance(6 * cells * cells);
+  const Real speed = run.velocity_of(1).x - run.step.fluid_report().bulk_velocity.x;
+  return speed / (weight / (array.stokes(1) * Array::kDrag));
+}
+
+TEST(ImmersedGrains, ArraySinksAsFastAsItsDragAllows) {
+  for (const Real ratio : {2.5, 1.05})
+    expect_relative("speed of a sinking array, density ratio " + std::to_string(ratio),
+                    sinking_speed(16, ratio), 1, 0.05);
+}
+
+TEST(ImmersedGrains, SpinningGrainHasItsTorque) {
+  constexpr int cells = 32, steps = 1500;  // 4 diameters
+  constexpr Real h = kD / 8, omega = 1;
+  Config c = immersed_box({cells, cells, cells}, h, kHeld);
+  c.fluid->bottom = c.fluid->top = WallFlow::no_slip;
+  InitialGrains grains;
+  const Real middle = 0.5 * cells * h;
+  add_grain(grains, kD, {middle + 0.3 * h, middle + 0.1 * h, middle - 0.2 * h}, {}, {0, 0, omega});
+  CoupledRun run(c, grains);
+  run.advance(steps);
+  const Vec3 torque = force_on_first(run, "torque_flow");
+  expect_relative("torque on a spinning grain", -torque.z, pi * kNu * kRho * kD * kD * kD * omega,
+                  0.04);
+  EXPECT_LT(std::abs(torque.x) + std::abs(torque.y), 2e-3 * norm(torque));
+}
+
+TEST(ImmersedGrains, FreeGrainInShearSpinsWithHalfTheRate) {
+  constexpr int cells = 40, steps = 2500;  // 5 diameters
+  constexpr Real h = kD / 8, speed = 1e-3;
+  Config c = immersed_box({cells, cells, cells}, h, 2500);
+  c.fluid->bottom = c.fluid->top = WallFlow::no_slip;
+  c.fluid->top_velocity = speed;
+  InitialGrains grains;
+  const Real middle = 0.5 * cells * h;
+  add_grain(grains, kD, {middle + 0.3 * h, middle, middle}, {speed / 2, 0, 0});
+  CoupledRun run(c, grains);
+  set_faces(run.state.fluid->u, run.state.fluid->grid, [&](std::size_t axis, Real, Real y, Real) {
+    return axis == 0 ? speed * y / (cells * h) : 0;
+  });
+  run.fill_ghosts();
+  run.advance(steps);
+  const Real rate = speed / (cells * h);
+  expect_relative("spin of a free grain over half the shear rate", run.rows()[1].omega.z, -rate / 2,
+                  0.03);
+}
+
+/// Momentum of water and grains, and what grains will get of it in the next step [N s].
+Vec3 momentum(CoupledRun& run) {
+  const GrainState& grains = *run.state.grains;
+  const auto kin = host_copy(grains.kin);
+  const auto inside = host_copy(grains.exchange.inner_momentum);
+  const auto force = host_copy(grains.exchange.resolved_force);
+  const auto added = host_copy(grains.fluid.added_mass);
+  const auto acceleration = host_copy(grains.fluid.acceleration);
+  const FaceVector& u = run.state.fluid->u;
+  const test::HostGrid h(run.state.fluid->grid);
+  const HostField x = to_host(u.x), y = to_host(u.y), z = to_host(u.z);
+  Vec3 sum;
+  for_owned_cells(run.state.fluid->grid, [&](int i, int j, int k) {
+    sum += (kRho * h.volume(j)) * Vec3{x(i, j, k), y(i, j, k), z(i, j, k)};
+  });
+  for (int g = 0; g < grains.n; ++g)
+    sum +=
+        kin(g).m * kin(g).u - inside(g) + run.step.dt() * (force(g) + added(g) * acceleration(g));
+  return sum;
+}
+
+TEST(ImmersedGrains, MomentumAlongTheFloorIsKept) {
+  constexpr int cells = 32;
+  const Real h = kD / 8;
+  Config c = immersed_box({cells, cells, cells}, h, 2500);
+  InitialGrains grains;
+  add_grain(grains, kD, {1.0e-3, 0.7e-3, 1.0e-3}, {2e-2, 1e-2, 0}, {3, 2, 1});
+  add_grain(grains, 0.9 * kD, {2.1e-3, 0.9e-3, 1.2e-3}, {-2e-2, 0, 5e-3});
+  add_grain(grains, kD, {3.0e-3, 3.1e-3, 3.6e-3}, {0, -1e-2, 5e-3}, {0, 5, 0});
+  CoupledRun run(c, grains);
+  const Vec3 before = momentum(run);
+  const Real scale = 2500 * volume_of(kD) * 2e-2;
+  Real worst = 0;
+  for (int s = 0; s < 100; ++s) {
+    run.advance();
+    const Vec3 off = momentum(run) - before;
+    worst = std::max({worst, std::abs(off.x), std::abs(off.z)});
+  }
+  expect_below("momentum of water and grains that changed, of that of a grain", worst / scale,
+               1e-13);
+}
+
+}  // namespace
+}  // namespace barchan
