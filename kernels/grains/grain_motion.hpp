@@ -95,10 +95,9 @@ struct GrainMotion {
     if constexpr (has_slip(effect)) {
       c.inv_fluid_mass = fluid.inv_fluid_mass(g);
       c.beta = fluid.beta(g);
-      c.added_mass = fluid.added_mass(g);
     }
+    if constexpr (effect != FluidEffect::none) c.added_mass = fluid.added_mass(g);
     if constexpr (effect == FluidEffect::force_and_torque) c.beta_r = fluid.beta_r(g);
-    if constexpr (effect == FluidEffect::resolved) c.added_mass = fluid.added_mass(g);
     return c;
   }
   template <FluidEffect effect>
