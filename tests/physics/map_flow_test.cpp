@@ -104,7 +104,7 @@ TEST(MapFlow, AWindowHasTheFlowOfItsPlace) {
   Config part = test::flow_config({16, 12, 10}, {0.03, 0.012, 0.02}, 0);
   part.fluid->top = WallFlow::no_slip;
   FlowRun to(part);
-  map_window(to.config, from.config.fluid, {0.04, 0.015}, from.fluid, to.fluid);
+  map_window(to.config, *from.config.fluid, {0.04, 0.015}, from.fluid, to.fluid);
   const auto u = test::to_host(to.fluid.u.x), across = test::to_host(to.fluid.u.z);
   for (int k = 0; k < 10; ++k)
     for (int j = 1; j < 12; ++j) {  // the lowest lies between a wall and a node

@@ -35,21 +35,30 @@ rolling_friction = 0.1
 boundary_x = "periodic"
 [output]
 grains_interval = 0.001
+tracks_interval = 0.001
+grain_forces = true
+dune_interval = 0.001
+history_interval = 0.001
+[statistics]
+start = 0.001
+interval = 0.001
+grain_forces = true
 TOML
 
 run 1 whole.toml
 run 1 part.toml --out one
 run 2 part.toml --out two
 same grains one two
-run 1 part.toml --out halves --set time.end=0.001
+run 1 part.toml --out halves --set time.end=0.0015
 run 1 part.toml --out halves --resume
 same bits one halves
 
-refused() {  # words of the message, arguments
-  local words=$1
+refused() {  # word of the message, case, arguments
+  local word=$1
   shift
-  if "$BARCHAN_PROGRAM" check part.toml "$@" > refused.txt 2>&1; then fail "not refused: $*"; fi
-  grep -q -- "$words" refused.txt || { cat refused.txt; fail "no word of $words"; }
+  if "$BARCHAN_PROGRAM" check "$@" > refused.txt 2>&1; then fail "not refused: $*"; fi
+  grep -q -- "$word" refused.txt || { cat refused.txt; fail "no word of $word"; }
 }
-refused "initial.window" --set initial.window=[0.017,0.004]
-refused "initial.window" --set 'initial.grains={pour={radius=0.002}}' --set 'grains.sizes=[[2e-4,100]]'
+refused 'window = \[0.017' part.toml --set 'initial.window=[0.017, 0.004]'
+sed 's/grains = "whole.toml"/grains = { pour = { radius = 0.002, centre = [0.004, 0.003] } }/' part.toml > poured.toml
+refused 'where grains are poured' poured.toml --set 'grains.sizes=[[2e-4, 100]]'
