@@ -117,8 +117,8 @@ struct SumOfLoads {
 };
 
 /// Hands force and torque of the water over the last fluid step to the grain steps of the next one,
-/// with weight, buoyancy and the added mass: what the water's force will change with the
-/// acceleration of the grain.
+/// with weight, buoyancy, and added mass and inertia: what force and torque of the water change
+/// with the acceleration of the grain.
 struct ActOnGrains {
   SubmergedWeight weight;
   Kokkos::View<const GrainKinematics*> grains;
@@ -126,8 +126,11 @@ struct ActOnGrains {
   FluidOnGrains on_grains;
   KOKKOS_FUNCTION void operator()(int g) const {
     on_grains.explicit_force(g) = exchange.resolved_force(g) + weight(grains(g));
-    on_grains.explicit_torque(g) = exchange.resolved_torque(g);
-    on_grains.added_mass(g) = sphere_added_mass(weight.displaced, sphere_volume(grains(g).r));
+    const Real added_mass = sphere_added_mass(weight.displaced, sphere_volume(grains(g).r));
+    on_grains.added_mass(g) = added_mass;
+    on_grains.explicit_torque(g) =
+        exchange.resolved_torque(g) +
+        added_inertia(added_mass, grains(g).r) * on_grains.spin_acceleration(g);
   }
 };
 
@@ -139,6 +142,7 @@ struct KeepAcceleration {
   Real dt;
   KOKKOS_FUNCTION void operator()(int g) const {
     on_grains.acceleration(g) = (1 / dt) * (grains(g).u - on_grains.u_start(g));
+    on_grains.spin_acceleration(g) = (1 / dt) * (grains(g).omega - on_grains.spin_start(g));
   }
 };
 

@@ -1,5 +1,5 @@
-// Contact law: stiffness and damping, Hertz-Mindlin and linear spring-dashpot; the torque that
-// opposes relative rolling; force and torque of one contact with tangential history. Contacts of
+// Contact law: stiffness and damping, Hertz-Mindlin and linear spring-dashpot, and the film of
+// water before a contact; force and torque of one contact with tangential history. Contacts of
 // grains with grains and with walls have the same law. It has no branches that a compiler cannot
 // turn into selects, so that a block of contacts vectorises.
 // Equation numbers: Lima et al. (2022), appendix A, with the misprints put right
@@ -8,8 +8,7 @@
 
 #include <numbers>
 
-#include "kernels/math/alternatives.hpp"
-#include "kernels/math/vec3.hpp"
+#include "kernels/grains/rolling_law.hpp"
 
 namespace barchan {
 
@@ -45,6 +44,9 @@ struct ContactMaterial {
   Real restitution = 1;
   Real linear_stiffness = 0;    // [N/m]
   Real tangential_damping = 1;  // factor on the tangential dashpot
+  Real film_viscosity = 0;      // of the water between the surfaces [Pa s]
+  Real film_reach = 0;          // gap below which the flow does not resolve it [m]
+  Real thinnest_film = 1;       // over the effective radius
 };
 
 /// Elastic normal force, tangential spring and dashpots of one contact.
@@ -117,80 +119,50 @@ struct LinearSpring {
   }
 };
 
-using ContactModels = Alternatives<HertzMindlin, LinearSpring>;
-
-/// State of one contact as a rolling law needs it.
-struct RollingContact {
-  Vec3 normal;            // unit, from j to i
-  Vec3 omega_difference;  // omega_i - omega_j [rad/s]
-  Real r_eff;             // [m]
-  Real k_t;               // tangential stiffness now [N/m]
-  Real f_n;               // |normal force| [N]
-  Real mu_r;              // rolling friction [-]
-  Real dt;                // grain step [s]
-};
-
-/// Relative spin without its part along the normal (no torsion) [rad/s].
-KOKKOS_FORCEINLINE_FUNCTION Vec3 rolling_velocity(const RollingContact& c) {
-  return fma(-dot(c.omega_difference, c.normal), c.normal, c.omega_difference);
+/// Damping of the film between two surfaces that approach, 6 pi mu R_eff^2 / gap [kg/s]: leading
+/// term of Cox & Brenner (1967), for spheres and for a sphere and a plane.
+KOKKOS_FORCEINLINE_FUNCTION constexpr Real film_damping(Real viscosity, Real r_eff, Real gap) {
+  return 6 * std::numbers::pi_v<Real> * viscosity * r_eff * r_eff / gap;
 }
 
-/// Rolling torque `torque` after a rotation by -k_r w_t dt, its magnitude limited to mu_r R_eff
-/// F_n.
-KOKKOS_FORCEINLINE_FUNCTION Vec3 limited_rolling_spring(const RollingContact& c, Real k_r,
-                                                        const Vec3& torque) {
-  const Vec3 trial = fma(-k_r * c.dt, rolling_velocity(c), torque);
-  const Real size = norm(trial);
-  const Real limit = c.mu_r * c.r_eff * c.f_n;
-  return (size > limit ? limit / size : Real(1)) * trial;
+/// Hertz-Mindlin contacts, and before them the part of the film's force that the cells of a
+/// resolved flow are too wide for: that at the gap less that at its reach. Below the thinnest film
+/// the force stays (Biegert et al. 2017). Limits: no viscosity, or a gap beyond the reach:
+/// HertzMindlin.
+struct HertzLubricated {
+  static constexpr Named named{"hertz_lubricated",
+                               "hertz_mindlin, and the film before contact, Cox & Brenner (1967)"};
+  static constexpr bool acts_apart = true;
+  HertzMindlin contact{};
+  Real viscosity = 0, film = 0, thinnest = 1;  // as in ContactMaterial
+
+  static HertzLubricated from(const ContactMaterial& m) {
+    return {.contact = HertzMindlin::from(m),
+            .viscosity = m.film_viscosity,
+            .film = m.film_reach,
+            .thinnest = m.thinnest_film};
+  }
+  KOKKOS_FORCEINLINE_FUNCTION constexpr Real reach(Real) const { return film; }
+  KOKKOS_FORCEINLINE_FUNCTION ContactStiffness operator()(Real r_eff, Real m_eff,
+                                                          Real delta_n) const {
+    ContactStiffness k = contact(r_eff, m_eff, Kokkos::max(delta_n, Real(0)));
+    const Real gap = Kokkos::max(-delta_n, thinnest * r_eff);
+    const Real more = film_damping(viscosity, r_eff, Kokkos::min(gap, film)) -
+                      film_damping(viscosity, r_eff, film);
+    k.gamma_n += delta_n > 0 || film == 0 ? Real(0) : more;
+    return k;
+  }
+};
+
+using ContactModels = Alternatives<HertzMindlin, LinearSpring, HertzLubricated>;
+
+/// Tells if a law acts between surfaces that do not touch: then they have no friction and no
+/// history.
+template <class Law>
+KOKKOS_FORCEINLINE_FUNCTION constexpr bool acts_apart() {
+  if constexpr (requires { Law::acts_apart; }) return Law::acts_apart;
+  return false;
 }
-
-/// No rolling resistance.
-struct NoRolling {
-  static constexpr Named named{"none", "no resistance"};
-  static constexpr bool has_history = false;
-  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact&, const Vec3&) const {
-    return {};
-  }
-};
-
-/// EPSD2: k_r = k_t R_eff^2, no dashpot (Ai et al. 2011 with the stiffness of Iwashita & Oda 1998;
-/// the model the paper's programs evaluate). Torque on i [N m].
-struct Epsd2 {
-  static constexpr Named named{
-      "epsd2", "a spring of k_t R^2, Ai et al. (2011), as in the programs behind the paper"};
-  static constexpr bool has_history = true;
-  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact& c, const Vec3& torque) const {
-    return limited_rolling_spring(c, c.k_t * c.r_eff * c.r_eff, torque);
-  }
-};
-
-/// The paper's A12-A13 (Derakhshani et al. 2015): k_r = mu_r R_eff F_n / theta_m, which reaches the
-/// limit mu_r R_eff F_n when the contact has rolled by theta_m [rad].
-struct ThetaM {
-  static constexpr Named named{
-      "theta_m", "a spring that slips at `rolling_theta_m`, Derakhshani et al. (2015)"};
-  static constexpr bool has_history = true;
-  Real theta_m = Real(0.1);
-  static ThetaM from(Real theta_m) { return {.theta_m = theta_m}; }
-  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact& c, const Vec3& torque) const {
-    return limited_rolling_spring(c, c.mu_r * c.r_eff * c.f_n / theta_m, torque);
-  }
-};
-
-/// Constant directional torque mu_r R_eff F_n against the relative rolling (Ai et al. 2011, model
-/// A).
-struct ConstantTorque {
-  static constexpr Named named{"cdt", "a constant torque, Ai et al. (2011)"};
-  static constexpr bool has_history = false;
-  KOKKOS_FORCEINLINE_FUNCTION Vec3 operator()(const RollingContact& c, const Vec3&) const {
-    const Vec3 spin = rolling_velocity(c);
-    const Real size = norm(spin);
-    return (size > 0 ? -c.mu_r * c.r_eff * c.f_n / size : Real(0)) * spin;
-  }
-};
-
-using RollingModels = Alternatives<NoRolling, Epsd2, ThetaM, ConstantTorque>;
 
 /// Geometry and relative motion of a touching pair (i, j); for a wall j stands still.
 struct ContactPair {

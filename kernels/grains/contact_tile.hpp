@@ -86,10 +86,11 @@ struct ContactTile {
             .elastic = elastic[q], .k_t = k_t[q], .gamma_n = gamma_n[q], .gamma_t = gamma_t[q]},
         law.rolling, law.table.friction[law.table.at(law_at(q))], pair, history, law.dt);
     const Real on = in_contact(law.table.of(law_at(q)), r_eff[q], delta_n) ? 1 : 0;
+    const Real touch = acts_apart<typename Law::Stiffness>() && !(delta_n > 0) ? 0 : on;
     new_force.store(q, on * result.force, delta_n);
-    new_n_cross_f_t.store(q, on * result.n_cross_f_t, 0);
-    new_xi_t.store(q, on * result.xi_t, 0);
-    if constexpr (kRolls) new_rolling.store(q, on * result.rolling, 0);
+    new_n_cross_f_t.store(q, touch * result.n_cross_f_t, 0);
+    new_xi_t.store(q, touch * result.xi_t, 0);
+    if constexpr (kRolls) new_rolling.store(q, touch * result.rolling, 0);
   }
 };
 

@@ -20,9 +20,11 @@ struct FluidOnGrains {
   Kokkos::View<Vec3*> omega_f;          // half the vorticity of the fluid [rad/s]
   Kokkos::View<Real*> beta_r;           // torque = beta_r (omega_f - omega) [N m s]
   Kokkos::View<Vec3*> explicit_torque;  // torque of a resolved flow [N m]; else empty
-  bool has_fluid = false;               // without fluid, only explicit_force is set
-  bool has_torque = false;              // torque of the fluid: omega_f and beta_r are set
-  bool is_resolved = false;             // explicit_force and explicit_torque are all there is
+  // spin as the fluid step began [rad/s], and its change over the one before [rad/s^2]; likewise
+  Kokkos::View<Vec3*> spin_start, spin_acceleration;
+  bool has_fluid = false;    // without fluid, only explicit_force is set
+  bool has_torque = false;   // torque of the fluid: omega_f and beta_r are set
+  bool is_resolved = false;  // explicit_force and explicit_torque are all there is
 
   /// Velocity of the fluid that the grain carries along, `elapsed` [s] into the fluid step [m/s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 u_f_after(Real elapsed, int g) const {
@@ -51,6 +53,7 @@ struct BeginFluidStep {
   KOKKOS_FUNCTION void operator()(int g) const {
     on_grains.impulse(g) = Vec3{};
     on_grains.u_start(g) = grains(g).u;
+    if (on_grains.is_resolved) on_grains.spin_start(g) = grains(g).omega;
   }
 };
 

@@ -98,6 +98,8 @@ struct GrainMotion {
     }
     if constexpr (effect != FluidEffect::none) c.added_mass = fluid.added_mass(g);
     if constexpr (effect == FluidEffect::force_and_torque) c.beta_r = fluid.beta_r(g);
+    if constexpr (effect == FluidEffect::resolved)
+      c.inertia_moment += added_inertia(c.added_mass, radius);
     return c;
   }
   template <FluidEffect effect>

@@ -1,5 +1,7 @@
 #include "src/case/config.hpp"
 
+#include <cmath>
+
 #include "src/bodies/make_bodies.hpp"
 #include "src/case/derived.hpp"
 #include "src/fluid/flow_schedule.hpp"
@@ -20,10 +22,20 @@ FluidCase fluid_case(const Config& c, const Bodies& bodies) {
           .with_grains = c.grains.has_value()};
 }
 
+/// Water that a resolved flow with cells so wide is too coarse for: two of them.
+Film film_of(const Config& c) {
+  if (!c.fluid || c.coupling.scheme != CouplingScheme::resolved) return {};
+  const double volume = c.size[0] * c.size[1] * c.size[2];
+  const auto& [nx, ny, nz] = c.fluid->cells;
+  return {.viscosity = c.fluid->density * c.fluid->kinematic_viscosity,
+          .reach = 2 * std::cbrt(volume / nx / ny / nz)};
+}
+
 GrainsCase grains_case(const Config& c, const Bodies& bodies) {
   std::vector<std::string> names;
   for (const BodyConfig& body : c.bodies) names.push_back(body.name);
   return {.grains = c.grains.value(),
+          .film = film_of(c),
           .size = c.size,
           .half_edge_strip = half_edge_strip(c),
           .fluid_step = c.time.fluid_step,

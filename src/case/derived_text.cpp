@@ -41,9 +41,13 @@ void add_cells_against_grains(std::string& text, const GrainNumbers& n, Coupling
   const char* limit = layered ? " (recommended: 0.7 or less)" : "";
   line(text, "row height / grain", "{:.2f} at the floor{}{}", n.floor_ratio, top, limit);
   if (layered) return;
-  const bool resolved = scheme == CouplingScheme::resolved;
-  line(text, "smallest cell / grain", "{:.2f} (recommended with this exchange: {})", n.cell_ratio,
-       resolved ? "0.1 or less" : "1.2 to 1.6");
+  if (scheme == CouplingScheme::resolved) {
+    line(text, "cells a diameter", "{:.1f} of the mean grain (recommended: 10 or more)",
+         1 / n.cell_ratio);
+    return;
+  }
+  line(text, "smallest cell / grain", "{:.2f} (recommended with this exchange: 1.2 to 1.6)",
+       n.cell_ratio);
 }
 
 /// Adds the lines of a kind. With several kinds each line names its own.

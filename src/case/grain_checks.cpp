@@ -209,7 +209,11 @@ void check_grains(const Config& c, Findings& found) {
                  "must be absent unless contact_model = \"linear\"");
   check_floor(grains, c.size, found);
   check_kinds(grains, found);
-  if (c.fluid && is_immersed(c.coupling, grains)) check_immersed(c, found);
+  const bool immersed = c.fluid && is_immersed(c.coupling, grains);
+  if (immersed) check_immersed(c, found);
+  found.error_if(grains.contact_model.is<HertzLubricated>() && !immersed,
+                 {"grains.contact_model", "coupling.scheme", "grains.frozen"},
+                 "must come with grains that move in a resolved flow, whose film it is");
   found.error_if(c.fluid && grains.ambient, {"grains.ambient", "fluid"},
                  "contradicts [fluid]: still water or a computed flow");
   check_following(c, found);
@@ -245,7 +249,7 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
           n.d_max, narrowest))
     return found.all;
   if (!c.grains->frozen) {
-    const bool hertz = c.grains->contact_model.is<HertzMindlin>();
+    const bool hertz = !c.grains->contact_model.is<LinearSpring>();
     (hertz ? check_hertz_step : check_linear_step)(c, n, found);
   }
   // The hole between three glued spheres is 0.155 of their diameter wide.

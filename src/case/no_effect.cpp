@@ -10,7 +10,7 @@ namespace {
 bool has_fluid(const Config& c) { return c.fluid.has_value(); }
 bool has_grains(const Config& c) { return c.grains.has_value(); }
 bool is_hertzian(const Config& c) {
-  return !c.grains || c.grains->contact_model.is<HertzMindlin>();
+  return !c.grains || !c.grains->contact_model.is<LinearSpring>();
 }
 
 constexpr const char* kWithoutFluid = "must be absent without a [fluid] section";

@@ -51,6 +51,8 @@ void for_each_grain_array(State& s, const Action& action) {
   add(e.resolved_torque,  "resolved_torque",  "N m",  when_resolved, of_moving);
   add(e.inner_momentum,   "inner_momentum",   "N s",  when_immersed, kRestart);
   add(e.inner_spin,       "inner_spin",       "N m s", when_immersed, kRestart);
+  add(f.spin_acceleration, "spin_acceleration", "rad/s2", when_immersed, kRestart);
+  add(f.spin_start,       "spin_start",       "rad/s", when_immersed);
   add(f.explicit_torque,  "explicit_torque",  "N m",  when_immersed);
   add(f.omega_f,          "omega_f",          "rad/s", with_torque, kGatherWrites);
   add(f.beta_r,           "beta_r",           "N m s", with_torque, kGatherWrites);

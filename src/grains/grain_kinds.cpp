@@ -9,13 +9,20 @@ namespace barchan {
 
 namespace {
 
-ContactMaterial contact_material(const GrainConfig& config, const Material& a, const Material& b,
-                                 const Material& contact) {
+// Thinnest film between a sphere and its image or a plane, over its radius; Biegert et al. (2017).
+constexpr Real kThinnestFilm = 3e-3;
+
+/// `radius`: of a grain over the effective one, 2 between equal grains, 1 at a wall.
+ContactMaterial contact_material(const GrainConfig& config, const Film& film, Real radius,
+                                 const Material& a, const Material& b, const Material& contact) {
   return {.a = {.youngs_modulus = a.youngs_modulus, .poisson_ratio = a.poisson_ratio},
           .b = {.youngs_modulus = b.youngs_modulus, .poisson_ratio = b.poisson_ratio},
           .restitution = contact.restitution,
           .linear_stiffness = config.linear_stiffness,
-          .tangential_damping = config.tangential_damping};
+          .tangential_damping = config.tangential_damping,
+          .film_viscosity = film.viscosity,
+          .film_reach = film.reach,
+          .thinnest_film = kThinnestFilm * radius};
 }
 
 Friction friction_of(const Material& m, CoulombLimit limit) {
@@ -69,24 +76,24 @@ std::vector<Real> densities_of(const GrainConfig& config) {
   return densities;
 }
 
-LawTables laws_of_pairs(const GrainConfig& config, const GrainKinds& kinds) {
+LawTables laws_of_pairs(const GrainConfig& config, const GrainKinds& kinds, const Film& film) {
   return filled(config, kinds, [&]<class Stiffness>(LawTable<Stiffness, true>& table) {
     for (int a = 0; a < kinds.count(); ++a) {
       for (int b = 0; b < kinds.count(); ++b) {
         const Material& contact = kinds.contact(a, b);
         table.stiffness[law_entry(a, b)] = Stiffness::from(
-            contact_material(config, kinds.contact(a, a), kinds.contact(b, b), contact));
+            contact_material(config, film, 2, kinds.contact(a, a), kinds.contact(b, b), contact));
         table.friction[law_entry(a, b)] = friction_of(contact, config.coulomb_limit);
       }
     }
   });
 }
 
-LawTables laws_of_walls(const GrainConfig& config, const GrainKinds& kinds) {
+LawTables laws_of_walls(const GrainConfig& config, const GrainKinds& kinds, const Film& film) {
   return filled(config, kinds, [&]<class Stiffness>(LawTable<Stiffness, true>& table) {
     for (int a = 0; a < kinds.count(); ++a) {
-      table.stiffness[law_entry(a, 0)] =
-          Stiffness::from(contact_material(config, kinds.contact(a, a), config.wall, config.wall));
+      table.stiffness[law_entry(a, 0)] = Stiffness::from(
+          contact_material(config, film, 1, kinds.contact(a, a), config.wall, config.wall));
       table.friction[law_entry(a, 0)] = friction_of(config.wall, config.coulomb_limit);
     }
   });

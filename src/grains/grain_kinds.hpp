@@ -38,9 +38,9 @@ using LawTableOfMany = LawTable<Stiffness, true>;
 using LawTables = ContactModels::VariantOf<LawTableOfMany>;
 
 /// Laws of the contacts of all kinds with each other.
-LawTables laws_of_pairs(const GrainConfig& config, const GrainKinds& kinds);
+LawTables laws_of_pairs(const GrainConfig& config, const GrainKinds& kinds, const Film& film = {});
 /// Laws of the contacts of all kinds with the walls, under law_entry(kind, 0).
-LawTables laws_of_walls(const GrainConfig& config, const GrainKinds& kinds);
+LawTables laws_of_walls(const GrainConfig& config, const GrainKinds& kinds, const Film& film = {});
 
 /// Table with the first entry alone.
 template <class Stiffness>

@@ -58,8 +58,8 @@ GrainSolver::GrainSolver(const GrainsCase& config, GrainState& grains)
 GrainSolver::GrainSolver(const GrainsCase& config, GrainState& grains, const GrainKinds& kinds)
     : ranks_(grains.ranks),
       many_kinds_(kinds.count() > 1),
-      pair_laws_(laws_of_pairs(config.grains, kinds)),
-      wall_laws_(laws_of_walls(config.grains, kinds)),
+      pair_laws_(laws_of_pairs(config.grains, kinds, config.film)),
+      wall_laws_(laws_of_walls(config.grains, kinds, config.film)),
       list_(config, grains.r_max, grains.ranks, largest_reach(pair_laws_, grains.r_max / 2)),
       rolling_(make_rolling(config.grains, kinds)),
       on_bodies_(config, grains, !std::holds_alternative<NoRolling>(rolling_),

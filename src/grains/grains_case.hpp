@@ -108,9 +108,16 @@ struct ForceSwitches {
   bool operator==(const ForceSwitches&) const = default;
 };
 
+/// The water between surfaces that approach, for a contact model that knows it.
+struct Film {
+  double viscosity = 0;  // [Pa s]
+  double reach = 0;      // gap from which it acts [m]
+};
+
 /// Input of the grain solver, settled once.
 struct GrainsCase {
   GrainConfig grains;
+  Film film{};
   std::array<double, 3> size{};  // size of the domain [m]
   // half the width of the strip around the edge of a window that follows its dune [m]
   double half_edge_strip = 0;
