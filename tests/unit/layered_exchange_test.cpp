@@ -74,7 +74,7 @@ TEST(LayeredExchange, AGrainBetweenTwoRowsSeesEachByItsPoints) {
   const auto seen = w.at(w.grid.y_face(4), [](int j) { return j < 4 ? 0 : 1; });
   ASSERT_EQ(seen.rows.n, 2);
   EXPECT_NEAR(seen.velocity.x.over_grain, 19.0 / 29, 1e-14);
-  for (const auto& x : seen.velocity.x) {
+  for (const auto& x : seen.velocity.x.in_row) {
     EXPECT_EQ(x[seen.rows.find(3)], 0);
     EXPECT_EQ(x[seen.rows.find(4)], 1);
   }
