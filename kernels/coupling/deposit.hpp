@@ -154,8 +154,9 @@ struct DepositGrains {
       const Real C_j = rows_dt * interlayer_drag_below(rows, j);
       cache.at({u.i, j, u.k}).impulse_y += deposits.impulse.encode(w * impulse.y);
       const auto given = [&](const VelocityAtFaces& v, int side, Real limited, Real along) {
-        return along + rows_dt * (v.in_row[side][r] - v.mean[side]) +
-               limited * (v.mean[side] - v.over_grain);
+        const Real faster =
+            rows_dt * (v.in_row[side][r] - v.mean[side]) + limited * (v.mean[side] - v.over_grain);
+        return along + faster;
       };
       const auto along_x = [&](int side) {
         const Real c = u.x_faces.weight(side);
