@@ -11,7 +11,7 @@ namespace barchan {
 /// Sets `to` to the flow of `from`, on another mesh of the same box, as mapFields of OpenFOAM does:
 /// velocity, pressure, eddy viscosity and fluid fraction between nodes (FlowFromMesh). Then a
 /// gradient takes away the divergence of alpha u, and the velocity is scaled to the bulk velocity
-/// of `from`. `config`: of `to`. `from` is whole on every rank and gets its ghosts here; those of
+/// of `from`. `flow`: of `to`. `from` is whole on every rank and gets its ghosts here; those of
 /// `to` are not set. All ranks call it together.
 void map_flow(const FluidCase& flow, FluidState& from, FluidState& to);
 

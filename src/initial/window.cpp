@@ -21,7 +21,7 @@ void cut_outside(const Config& config, InitialGrains& grains) {
   grains.keep(inside);
 }
 
-/// Grains that touch a side of the box that meets another.
+/// Grains within a largest diameter of a side where the box repeats.
 std::vector<std::size_t> at_seams(const PeriodicBox& box, const InitialGrains& grains) {
   std::vector<std::size_t> found;
   const double r_max = std::ranges::max(grains.diameter) / 2;
