@@ -56,6 +56,7 @@ printf '[study]\nbase = "case.toml"\n[grid]\ngrains.restitution = [0.1, 0.2]\n"g
 
 # --- killed in the middle; the same command goes on and gives the bits of an unbroken run
 begin killed
+kill -STOP "$pid"  # else it starts another case before its own kill comes
 pkill -KILL -P "$pid" || fail "nothing ran when the kill came"
 kill -KILL "$pid"
 wait "$pid" 2> /dev/null
