@@ -240,12 +240,11 @@ def water(y):
 
 
 def shares_of_layers():
-    """Share w_j of the 29 points of a grain in each row, and their mean height there."""
-    shells = [np.zeros(1)] + [np.array([e, -e, 0, 0, 0, 0] + 4 * [e / 2, -e / 2]) for e in (0.6276, 0.9085)]
-    y = GRAIN[1] + 0.5 * np.concatenate(shells)
-    row = np.floor(y / ROW).astype(int)
-    n = np.bincount(row, minlength=ROWS)
-    return n / len(y), np.bincount(row, y, minlength=ROWS) / np.maximum(1, n)
+    """Share w_j of the volume of a grain in each row, and its mean height there."""
+    s = np.clip((np.arange(ROWS + 1) * ROW - GRAIN[1]) / 0.5, -1, 1)
+    share = np.diff((2 + 3 * s - s**3) / 4)
+    moment = np.diff(-3 / 16 * (1 - s**2)**2)
+    return share, GRAIN[1] + 0.5 * moment / np.maximum(share, 1e-9)
 
 
 def bed(ax):

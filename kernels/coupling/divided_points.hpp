@@ -48,7 +48,7 @@ KOKKOS_INLINE_FUNCTION constexpr Vec3 divided_point(int p) {
 
 /// A set of points, a bit each.
 using PointSet = std::uint32_t;
-inline constexpr PointSet kAllPoints = (PointSet{1} << kDividedPoints) - 1;
+inline constexpr PointSet kAllPoints = (PointSet{1} << kDividedPoints) - 1, kCentrePoint = 1;
 
 /// The points with the q-th coordinate along each axis.
 struct DividedSets {
@@ -64,28 +64,17 @@ KOKKOS_INLINE_FUNCTION constexpr DividedSets divided_sets() {
   return sets;
 }
 
-/// The points at the heights [first, last), counted upwards: a set, its share of all points, and
-/// the mean offset.
+/// The points at the heights [first, last), counted upwards.
 struct PointsBetween {
-  struct Points {
-    PointSet set = 0;
-    Real weight = 0, mean_offset = 0;
-  };
-  Points heights[kDividedOffsets + 1][kDividedOffsets + 1];  // by first and last
+  PointSet heights[kDividedOffsets + 1][kDividedOffsets + 1]{};  // by first and last
 };
 KOKKOS_INLINE_FUNCTION constexpr PointsBetween points_between() {
   constexpr int upwards[kDividedOffsets] = {6, 2, 8, 4, 0, 3, 7, 1, 5};  // of divided_offset
   const DividedSets sets = divided_sets();
   PointsBetween between;
   for (int first = 0; first < kDividedOffsets; ++first) {
-    Real sum = 0;
-    for (int last = first; last < kDividedOffsets; ++last) {
-      const PointSet next = sets.y[upwards[last]];
-      sum += Kokkos::popcount(next) * divided_offset(upwards[last], false);
-      const PointSet set = between.heights[first][last].set | next;
-      const int count = Kokkos::popcount(set);
-      between.heights[first][last + 1] = {set, Real(count) / kDividedPoints, sum / count};
-    }
+    for (int last = first; last < kDividedOffsets; ++last)
+      between.heights[first][last + 1] = between.heights[first][last] | sets.y[upwards[last]];
   }
   return between;
 }

@@ -12,35 +12,54 @@ KOKKOS_INLINE_FUNCTION Real mirrored_inside(const GridRef& grid, Real y) {
   return y > grid.ly ? 2 * grid.ly - y : y;
 }
 
-/// Rows of cells that share a grain, and which of its points each holds. The first row is that of
-/// its centre.
+/// Share of a sphere below a plane, and its first moment about the centre over the radius.
+struct SphereBelow {
+  Real share = 0, moment = 0;
+
+  SphereBelow() = default;
+  /// The plane lies s radii above the centre:
+  ///   share = (2 + 3 s - s^3)/4, moment = -3/16 (1 - s^2)^2.
+  KOKKOS_FORCEINLINE_FUNCTION explicit SphereBelow(Real s) {
+    s = Kokkos::clamp(s, Real(-1), Real(1));
+    const Real rest = 1 - s * s;
+    share = Real(0.25) * (2 + s * (3 - s * s));
+    moment = Real(-0.1875) * rest * rest;
+  }
+};
+
+/// Rows of cells that share a grain: the part of its volume in each, and which of its points stand
+/// for this part along x and z. The parts change with the height without jumps: grains that lie
+/// side by side on a floor cross a face together. The first row is that of the centre. The lowest
+/// row has also what lies in the floor, the highest what lies in the lid.
 struct GrainRows {
   int n = 0;
   int row[kDividedOffsets];
-  PointSet points[kDividedOffsets];
-  // Mean height of a row's points above its middle, over the distance to the middle of the row
+  PointSet points[kDividedOffsets];  // none where the sphere reaches beyond them
+  // Mean height of a row's part above its middle, over the distance to the middle of the row
   // below; the second, over the distance to that of the row above.
   Real over_lower[kDividedOffsets], over_upper[kDividedOffsets];
   PointSet outside = 0;  // points beyond the floor or the lid
 
   /// Finds the rows of a grain of radius r [m] whose centre has the height y [m].
   KOKKOS_INLINE_FUNCTION GrainRows(const GridRef& grid, Real y, Real r) {
-    const Real low = y - kOuterShell * r, high = y + kOuterShell * r;
-    const int own = grid.row_of(mirrored_inside(grid, y));
-    if (low >= grid.y_face(Kokkos::max(own - 1, 0)) &&
-        high < grid.y_face(Kokkos::min(own + 2, grid.ny))) {
-      const int lower = heights_below(grid.y_face(own), y, r);
-      const int upper = heights_below(grid.y_face(own + 1), y, r);
+    const int own = grid.row_of(y), top = grid.ny - 1;
+    const bool has_floor = own == 0, has_lid = own == top;
+    const Real half_height = r * kOuterShell;
+    if (y < half_height || y + half_height > grid.ly) find_outside(grid, y, r);
+    const Face lower = has_floor ? Face{} : face_at(grid, own, y, r);
+    const Face upper = has_lid ? whole() : face_at(grid, own + 1, y, r);
+    if ((own <= 1 || y - r >= grid.y_face(own - 1)) &&
+        (own >= top - 1 || y + r <= grid.y_face(own + 2))) {
       put(grid, own, y, r, lower, upper);
-      put(grid, Kokkos::max(own - 1, 0), y, r, 0, lower);
-      put(grid, Kokkos::min(own + 1, grid.ny - 1), y, r, upper, kDividedOffsets);
+      put(grid, has_floor ? own : own - 1, y, r, {}, lower);
+      put(grid, has_lid ? own : own + 1, y, r, upper, whole());
     } else {
-      one_by_one(grid, y, r, own);
+      fill_many(grid, y, r, own, lower, upper);
     }
   }
   /// Share of the grain in its q-th row; the shares add up to one.
   KOKKOS_INLINE_FUNCTION Real weight(int q) const { return weight_[q]; }
-  /// Mean height of the points in the q-th row [m].
+  /// Mean height of the part in the q-th row [m].
   KOKKOS_INLINE_FUNCTION Real height(const GridRef& grid, int q) const {
     return grid.y_centre(row[q]) + over_lower[q] * grid.dy_centre(row[q]);
   }
@@ -51,52 +70,70 @@ struct GrainRows {
   }
 
  private:
-  /// Number of the heights of points that are below a face.
-  KOKKOS_FORCEINLINE_FUNCTION static int heights_below(Real face, Real y, Real r) {
-    int number = 0;
+  // A smaller part belongs to the next row towards the centre: its mean height would be lost in
+  // rounding.
+  static constexpr Real kLeastPart = 1e-6;
+
+  /// What of the grain is below a face: heights of points, sphere.
+  struct Face {
+    int heights = 0;
+    SphereBelow below{};
+  };
+  KOKKOS_FORCEINLINE_FUNCTION static Face whole() {
+    return {kDividedOffsets, SphereBelow(Real(1))};
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static Face face_at(const GridRef& grid, int j, Real y, Real r) {
+    const Real face = grid.y_face(j);
+    Face f;
     for (int q = 0; q < kDividedOffsets; ++q)
-      number += y + r * divided_offset(q, false) < face ? 1 : 0;
-    return number;
+      f.heights += y + r * divided_offset(q, false) < face ? 1 : 0;
+    const SphereBelow below((face - y) / r);
+    // A part that is too small is none.
+    if (below.share > 1 - kLeastPart) return whole();
+    if (below.share >= kLeastPart) f.below = below;
+    return f;
   }
-  /// Adds row j with the points at the heights [first, last), unless there are none: without a
-  /// branch, whose outcome would be as good as random.
-  KOKKOS_FORCEINLINE_FUNCTION void put(const GridRef& grid, int j, Real y, Real r, int first,
-                                       int last) {
+  /// Adds row j with the part between two faces, unless there is none: without a branch, whose
+  /// outcome would be as good as random.
+  KOKKOS_FORCEINLINE_FUNCTION void put(const GridRef& grid, int j, Real y, Real r,
+                                       const Face& lower, const Face& upper) {
     static constexpr PointsBetween between = points_between();
-    const PointsBetween::Points& points_of_row = between.heights[first][last];
-    points[n] = points_of_row.set;
-    set(grid, n, j, points_of_row.weight, y + r * points_of_row.mean_offset);
-    n += points_of_row.set != 0 ? 1 : 0;
+    const Real share = upper.below.share - lower.below.share;
+    const bool some = share > 0;
+    const Real offset = (upper.below.moment - lower.below.moment) / (some ? share : Real(1));
+    const Real above_middle = y + r * offset - grid.y_centre(j);
+    row[n] = j, weight_[n] = share;
+    points[n] = between.heights[lower.heights][upper.heights];
+    over_lower[n] = above_middle / grid.dy_centre(j);
+    over_upper[n] = above_middle / grid.dy_centre(j + 1);
+    n += some ? 1 : 0;
   }
-  KOKKOS_FORCEINLINE_FUNCTION void set(const GridRef& grid, int q, int j, Real weight,
-                                       Real height) {
-    const Real above_middle = height - grid.y_centre(j);
-    row[q] = j, weight_[q] = weight;
-    over_lower[q] = above_middle / grid.dy_centre(j);
-    over_upper[q] = above_middle / grid.dy_centre(j + 1);
-  }
-  /// Fills in any grain. Points beyond the floor or the lid are mirrored back.
-  KOKKOS_INLINE_FUNCTION void one_by_one(const GridRef& grid, Real y, Real r, int own) {
-    constexpr DividedSets sets = divided_sets();
-    Real sum[kDividedOffsets];  // of the heights of a row's points [m]
-    for (int at = 0; at < kDividedOffsets; ++at) {
-      const Real height = y + r * divided_offset(at, false);
-      const Real inside = mirrored_inside(grid, height);
-      if (inside != height) outside |= sets.y[at];
-      const int j = grid.row_near(inside, own);
-      int q = 0;
-      while (q < n && row[q] != j) ++q;
-      if (q == n) row[n] = j, points[n] = 0, sum[n++] = 0;
-      points[q] |= sets.y[at];
-      sum[q] += Kokkos::popcount(sets.y[at]) * inside;
+  /// Fills in a grain that reaches beyond the rows next to its own, from the middle outwards. The
+  /// last rows for which there is room have all that is left.
+  KOKKOS_INLINE_FUNCTION void fill_many(const GridRef& grid, Real y, Real r, int own, Face lower,
+                                        Face upper) {
+    constexpr int reach = kDividedOffsets / 2;
+    put(grid, own, y, r, lower, upper);
+    for (int j = own - 1; j >= 0 && lower.below.share > 0; --j) {
+      const Face next = j == 0 || j == own - reach ? Face{} : face_at(grid, j, y, r);
+      put(grid, j, y, r, next, lower);
+      lower = next;
     }
-    for (int q = 0; q < n; ++q) {
-      const int count = Kokkos::popcount(points[q]);
-      set(grid, q, row[q], Real(count) / kDividedPoints, sum[q] / count);
+    for (int j = own + 1; j < grid.ny && upper.below.share < 1; ++j) {
+      const Face next = j == grid.ny - 1 || j == own + reach ? whole() : face_at(grid, j + 1, y, r);
+      put(grid, j, y, r, upper, next);
+      upper = next;
+    }
+  }
+  KOKKOS_INLINE_FUNCTION void find_outside(const GridRef& grid, Real y, Real r) {
+    constexpr DividedSets sets = divided_sets();
+    for (int q = 0; q < kDividedOffsets; ++q) {
+      const Real height = y + r * divided_offset(q, false);
+      if (height < 0 || height > grid.ly) outside |= sets.y[q];
     }
   }
 
-  Real weight_[kDividedOffsets];  // share of the grain in each row
+  Real weight_[kDividedOffsets];
 };
 
 }  // namespace barchan

@@ -38,35 +38,33 @@ struct CellIndex {
   }
 };
 
-/// Cells that share a grain, and how many of its points each holds.
+/// Cells that share a grain, and its share in each; the shares add up to one.
 struct GrainCells {
-  int n = 0, n_points = 0;
+  int n = 0;
   CellIndex cell[kDividedPoints];
-  int count[kDividedPoints];
+  Real share[kDividedPoints];
 
   /// Adds a cell that is not there yet, unless it holds no point.
-  KOKKOS_INLINE_FUNCTION void put(const CellIndex& c, int points) {
+  KOKKOS_INLINE_FUNCTION void put(const CellIndex& c, int points, Real share_of_point) {
     if (points == 0) return;
-    n_points += points;
     cell[n] = c;
-    count[n++] = points;
+    share[n++] = points * share_of_point;
   }
-  KOKKOS_INLINE_FUNCTION void add(const CellIndex& c, int points) {
+  KOKKOS_INLINE_FUNCTION void add(const CellIndex& c, int points, Real share_of_point) {
     for (int q = 0; q < n; ++q) {
       if (cell[q] == c) {
-        n_points += points;
-        count[q] += points;
+        share[q] += points * share_of_point;
         return;
       }
     }
-    put(c, points);
+    put(c, points, share_of_point);
   }
-  /// Share of the grain in its q-th cell; the shares add up to one.
-  KOKKOS_INLINE_FUNCTION Real weight(int q) const { return Real(count[q]) / Real(n_points); }
+  KOKKOS_INLINE_FUNCTION Real weight(int q) const { return share[q]; }
 };
 
-/// Points that stand for a grain. `cfdem`: a point outside gives its share to the grain's own cell,
-/// as CFDEM does.
+/// Points that stand for a grain. `divided`: each row of cells has the exact part of the sphere in
+/// it, which the row's points share, or has the column of the centre. `cfdem`: all points have
+/// equal shares, and one outside gives its to the grain's own cell, as CFDEM does.
 enum class PointModel { divided, centre, cfdem };
 
 /// Finds the cells of a grain. No volume is lost: a point beyond a wall is mirrored back, one
@@ -119,25 +117,30 @@ struct DepositStencil {
     const Vec3 x = box.wrap(g.x);
     const CellIndex own{place_x(column_x(x.x)), rows.row[0], place_z(column_z(x.z))};
     if (points == PointModel::centre) {
-      cells.put(own, 1);
+      cells.put(own, 1, 1);
       return cells;
     }
     const PointsAlong along_x = columns_of_points<false>(x.x, g.r);
     const PointsAlong along_z = columns_of_points<true>(x.z, g.r);
-    const PointSet to_own = points == PointModel::cfdem ? rows.outside : 0;
+    const bool equal = points == PointModel::cfdem;
+    const PointSet to_own = equal ? rows.outside : 0;
     for (int b = 0; b < rows.n; ++b) {
+      const PointSet in_row = rows.points[b] != 0 || equal ? rows.points[b] : kCentrePoint;
+      const Real of_point = equal ? kShareOfPoint : rows.weight(b) / Kokkos::popcount(in_row);
       for (int a = 0; a < along_x.n; ++a) {
-        const PointSet set = rows.points[b] & along_x.points[a] & ~to_own;
+        const PointSet set = in_row & along_x.points[a] & ~to_own;
         for (int c = 0; c < along_z.n; ++c)
           cells.put({along_x.cell[a], rows.row[b], along_z.cell[c]},
-                    Kokkos::popcount(set & along_z.points[c]));
+                    Kokkos::popcount(set & along_z.points[c]), of_point);
       }
     }
-    if (to_own != 0) cells.add(own, Kokkos::popcount(to_own));
+    if (to_own != 0) cells.add(own, Kokkos::popcount(to_own), kShareOfPoint);
     return cells;
   }
 
  private:
+  static constexpr Real kShareOfPoint = Real(1) / kDividedPoints;
+
   /// Columns along x, or along z, that hold the points of a grain; the first is that of its centre.
   template <bool along_z>
   KOKKOS_INLINE_FUNCTION PointsAlong columns_of_points(Real centre, Real r) const {

@@ -116,8 +116,8 @@ void check_cells(const Config& c, const GrainNumbers& n, Findings& found) {
                         "surface of a dune, which needs 0.7 or less",
                         n.floor_ratio))
     found.warning_if(n.floor_ratio * n.d_mean < n.d_max / 6, keys,
-                     "makes rows thinner than a sixth of the largest grain: its 29 points leave "
-                     "some of its rows empty");
+                     "makes rows thinner than a sixth of the largest grain: it has none of its "
+                     "29 points in some of its rows");
 }
 
 /// Displacement of the fluid by a point of a grain, relative to the flow. One of its 29 points that

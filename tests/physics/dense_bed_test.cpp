@@ -164,5 +164,36 @@ TEST(DenseBed, ASwingingBedComesToRest) {
   test::expect_below("speed of the bed after 0.05 s over that at first", left / pushed, 0.02);
 }
 
+// A bed of one to two layers rises and sinks as one on its floor, and so do the points of its
+// equal grains. The rows put a face at points of the grains that lie on the floor: at 1.3138,
+// 1.4543, 1 and 0.6862 radii, less what they sink in.
+TEST(DenseBed, ABedOnTheFloorDoesNotSwingWithTheFluidStep) {
+  const double r = 1e-4;
+  double worst = 0;
+  for (const double row : {1.3128, 1.4533, 0.999, 0.6852}) {
+    Config c = bed_config();
+    const int rows = static_cast<int>(6e-3 / (row * r)), n = 330;
+    c.size[1] = rows * row * r;
+    c.fluid->cells[1] = rows;
+    c.time.fluid_step = 2.5e-4;
+    InitialGrains grains = test::lattice_packing(n, c.size, 0.01);
+    grains.diameter.assign(n, 2 * r);
+    test::CoupledRun bed(c, test::settled(c, grains, 300));
+    bed.advance(40);
+    double swing = 0, before = 0;  // mean of the change of the vertical velocity in a step [m/s]
+    for (int step = 0; step <= 40; ++step) {
+      bed.advance(1);
+      double mean = 0;
+      const std::vector<test::GrainRow> all = bed.rows();
+      for (std::size_t id = 1; id < all.size(); ++id) mean += all[id].u.y / n;
+      if (step > 0) swing += std::abs(mean - before) / 40;
+      before = mean;
+    }
+    std::printf("[ measured ] rows of %.4f r: swing %.2e m/s\n", row, swing);
+    worst = std::max(worst, swing);
+  }
+  test::expect_below("largest swing of the vertical velocity [m/s]", worst, 1e-5);
+}
+
 }  // namespace
 }  // namespace barchan

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -43,45 +44,96 @@ TEST(Rows, AHeightIsFoundInTheRowThatHoldsIt) {
   }
 }
 
+/// Integrals of the cross-section of a unit sphere over its volume, and of height times this,
+/// between two heights. Simpson's rule is exact for them.
+struct Slice {
+  Real share, moment;
+  Slice(Real a, Real b) {
+    a = std::clamp(a, Real(-1), Real(1)), b = std::clamp(b, Real(-1), Real(1));
+    const auto simpson = [&](const auto& f) {
+      return (b - a) / 6 * (f(a) + 4 * f((a + b) / 2) + f(b));
+    };
+    share = simpson([](Real z) { return 0.75 * (1 - z * z); });
+    moment = simpson([](Real z) { return 0.75 * (1 - z * z) * z; });
+  }
+};
+
 // Grains smaller and larger than a row, inside and across the floor and the lid.
-TEST(Rows, AGrainIsInTheRowsOfItsPoints) {
+TEST(Rows, AGrainHasInEachRowItsPartOfTheSphere) {
+  const Real infinity = std::numeric_limits<Real>::infinity();
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<Real> height(-1e-4, 0.0041), radius(2e-5, 4e-4);
-  int of_two_rows = 0;
+  int of_two_rows = 0, of_many = 0;
   for (const test::HostGrid& host : grids()) {
     const GridRef grid = host.ref();
     for (int n = 0; n < 600; ++n) {
       const Real y = height(generator), r = radius(generator);
       const GrainRows rows(grid, y, r);
-      of_two_rows += rows.n == 2 ? 1 : 0;
-      std::array<Real, kDividedOffsets> sum{}, points{};
+      of_two_rows += rows.n == 2 ? 1 : 0, of_many += rows.n > 3 ? 1 : 0;
+      EXPECT_EQ(rows.row[0], grid.row_of(y));
+      Real sum = 0, mean = 0;
+      for (int q = 0; q < rows.n; ++q) {
+        const int j = rows.row[q];
+        const Slice part(j == 0 ? -infinity : (grid.y_face(j) - y) / r,
+                         j == grid.ny - 1 ? infinity : (grid.y_face(j + 1) - y) / r);
+        EXPECT_NEAR(rows.weight(q), part.share, 2e-6);
+        EXPECT_NEAR(rows.weight(q) * (rows.height(grid, q) - y) / r, part.moment, 2e-6);
+        const Real above_middle = rows.height(grid, q) - grid.y_centre(j);
+        EXPECT_NEAR(rows.over_upper[q] * (grid.y_centre(j + 1) - grid.y_centre(j)), above_middle,
+                    1e-15);
+        EXPECT_EQ(rows.find(j), q);
+        sum += rows.weight(q), mean += rows.weight(q) * rows.height(grid, q);
+      }
+      EXPECT_NEAR(sum, 1, 1e-15);
+      EXPECT_NEAR(mean, y, 1e-15);
+    }
+  }
+  EXPECT_GT(of_two_rows, 100);
+  EXPECT_GT(of_many, 10);
+}
+
+TEST(Rows, EachPointIsInTheRowThatHoldsIt) {
+  std::mt19937_64 generator(4);
+  std::uniform_real_distribution<Real> height(-1e-4, 0.0041), radius(2e-5, 4e-4);
+  for (const test::HostGrid& host : grids()) {
+    const GridRef grid = host.ref();
+    for (int n = 0; n < 300; ++n) {
+      const Real y = height(generator), r = radius(generator);
+      const GrainRows rows(grid, y, r);
       PointSet all = 0, outside = 0;
       for (int p = 0; p < kDividedPoints; ++p) {
         const Real at = y + r * divided_point(p).y;
         if (at < 0 || at > grid.ly) outside |= PointSet{1} << p;
-        const int q = rows.find(grid.row_of(mirrored_inside(grid, at)));
-        ASSERT_TRUE(rows.points[q] >> p & 1) << "point " << p << " at " << at;
-        sum[static_cast<std::size_t>(q)] += mirrored_inside(grid, at);
-        points[static_cast<std::size_t>(q)] += 1;
+        ASSERT_TRUE(rows.points[rows.find(grid.row_of(at))] >> p & 1) << p << " at " << at;
       }
-      EXPECT_EQ(rows.row[0], grid.row_of(mirrored_inside(grid, y)));
       EXPECT_EQ(rows.outside, outside);
       for (int q = 0; q < rows.n; ++q) {
         EXPECT_EQ(all & rows.points[q], 0u);
         all |= rows.points[q];
-        const int j = rows.row[q];
-        const auto at = static_cast<std::size_t>(q);
-        const Real above_middle = sum[at] / points[at] - grid.y_centre(j);
-        EXPECT_NEAR(rows.over_lower[q] * (grid.y_centre(j) - grid.y_centre(j - 1)), above_middle,
-                    1e-15);
-        EXPECT_NEAR(rows.over_upper[q] * (grid.y_centre(j + 1) - grid.y_centre(j)), above_middle,
-                    1e-15);
-        EXPECT_NEAR(rows.weight(q), points[at] / kDividedPoints, 1e-15);
       }
       EXPECT_EQ(all, kAllPoints);
     }
   }
-  EXPECT_GT(of_two_rows, 100);
+}
+
+// Grains that lie on a floor rise and sink together: what they carry across a face must be their
+// volume, at any height of the rows.
+TEST(Rows, APartOfAGrainMovesWithTheGrain) {
+  const Real r = 1e-4, step = 1e-3 * r;
+  for (const test::HostGrid& host : grids()) {
+    const GridRef grid = host.ref();
+    for (Real y = r; y < 0.003; y += step) {
+      const GrainRows before(grid, y, r), after(grid, y + step, r);
+      for (int j = 0; j < grid.ny; ++j) {
+        const auto part = [j](const GrainRows& rows) {
+          const int q = rows.find(j);
+          return rows.row[q] == j ? rows.weight(q) : Real(0);
+        };
+        // At most through the middle of the sphere: 3/4 of its volume a radius.
+        EXPECT_LE(std::abs(part(after) - part(before)), 0.75 * step / r + 4e-6) << y << " " << j;
+      }
+    }
+  }
 }
 
 // Cells that take the same slot push each other out; what they held is not lost.
