@@ -18,11 +18,6 @@ KOKKOS_FORCEINLINE_FUNCTION Real share_inside(Real s) {
 struct FaceSums {
   Real w = 0, a = 0, b = 0, aa = 0, bb = 0, u = 0, au = 0, bu = 0;
 
-  KOKKOS_FORCEINLINE_FUNCTION void add(Real share, Real of_a, Real of_b, Real velocity) {
-    const Real wa = share * of_a, wb = share * of_b;
-    w += share, a += wa, b += wb, aa += wa * of_a, bb += wb * of_b;
-    u += share * velocity, au += wa * velocity, bu += wb * velocity;
-  }
   KOKKOS_FORCEINLINE_FUNCTION FaceSums& operator+=(const FaceSums& m) {
     w += m.w, a += m.a, b += m.b, aa += m.aa, bb += m.bb, u += m.u, au += m.au, bu += m.bu;
     return *this;
@@ -35,6 +30,11 @@ struct FaceSums {
   KOKKOS_FORCEINLINE_FUNCTION Real spread_b() const { return bb - b * b / w; }
 };
 
+/// Sums over a row of faces inside a grain, with x the distance from the centre along it.
+struct RowSums {
+  Real w = 0, x = 0, xx = 0, u = 0, xu = 0;
+};
+
 /// Sums over all faces inside a grain: x with a = y, b = z; y with a = z, b = x; z with a = x, b =
 /// y.
 struct InnerSums {
@@ -42,6 +42,19 @@ struct InnerSums {
   KOKKOS_FORCEINLINE_FUNCTION InnerSums& operator+=(const InnerSums& more) {
     x += more.x, y += more.y, z += more.z;
     return *this;
+  }
+  /// Adds a row of the faces of a direction, at y and z from the centre.
+  KOKKOS_INLINE_FUNCTION void add_row(int direction, Real off_y, Real off_z, const RowSums& row) {
+    if (direction == 0) {
+      x += {row.w, off_y * row.w, off_z * row.w, off_y * off_y * row.w, off_z * off_z * row.w,
+            row.u, off_y * row.u, off_z * row.u};
+    } else if (direction == 1) {
+      y += {row.w,  off_z * row.w, row.x,         off_z * off_z * row.w,
+            row.xx, row.u,         off_z * row.u, row.xu};
+    } else {
+      z += {row.w, row.x,  off_y * row.w, row.xx, off_y * off_y * row.w,
+            row.u, row.xu, off_y * row.u};
+    }
   }
   /// Mean velocity [m/s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 velocity() const { return {x.mean(), y.mean(), z.mean()}; }
@@ -58,55 +71,86 @@ struct AddInnerFaces {
   GrainPatch patch;
   ConstFaceRef u;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const GrainKinematics& grain, int row,
-                                         InnerSums& sums) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const GrainKinematics& grain, const PatchCorner& corner,
+                                         int row, InnerSums& sums) const {
+    const int direction = row / (patch.n[1] * patch.n[2]);
     const GridRef& grid = patch.grid;
-    const Real per_width = 1 / Kokkos::cbrt(grid.cell_volume(0));
-    const auto off = [](Real s, Real period) { return s - period * Kokkos::round(s / period); };
-    const auto share = [&](const Vec3& s) { return share_inside((grain.r - norm(s)) * per_width); };
-    patch.each_cell(grain.x, row, [&](int i, int j, int k) {
-      const Vec3 c{off(grid.x_centre(i) - grain.x.x, grid.lx), grid.y_centre(j) - grain.x.y,
-                   off(grid.z_centre(k) - grain.x.z, grid.lz)};
-      const Real x_face = c.x - grid.dx / 2, z_face = c.z - grid.dz / 2;
-      const Real y_face = grid.y_face(j) - grain.x.y;
-      sums.x.add(share({x_face, c.y, c.z}), c.y, c.z, u.x(i, j, k));
-      sums.y.add(share({c.x, y_face, c.z}), c.z, c.x, u.y(i, j, k));
-      sums.z.add(share({c.x, c.y, z_face}), c.x, c.y, u.z(i, j, k));
+    const auto from_centre = [&](int axis, int index, Real spacing, Real centre) {
+      return (index + (axis == direction ? Real(0) : Real(0.5))) * spacing - centre;
+    };
+    const int b = row % patch.n[1], c = row / patch.n[1] % patch.n[2];
+    const Real y = from_centre(1, corner.of(1, direction) + b, grid.dy(0), grain.x.y);
+    const Real z = from_centre(2, corner.of(2, direction) + c, grid.dz, grain.x.z);
+    const Real first = from_centre(0, corner.of(0, direction), grid.dx, grain.x.x);
+    const Real per_width = Kokkos::cbrt(patch.per_cell.x * patch.per_cell.y * patch.per_cell.z);
+    const Real off_axis = y * y + z * z, outer = grain.r + 1 / per_width;
+    if (off_axis > outer * outer) return;
+    const ConstFieldRef& of = direction == 0 ? u.x : direction == 1 ? u.y : u.z;
+    patch.each_run(corner, row, [&](int at, int i, int j, int k, int n) {
+      const Real* const velocity = &of(i, j, k);
+      const Real begin = first + (at % patch.n[0]) * grid.dx;
+      Real w = 0, wx = 0, wxx = 0, wu = 0, wxu = 0;
+#pragma omp simd reduction(+ : w, wx, wxx, wu, wxu)
+      for (int q = 0; q < n; ++q) {
+        const Real x = begin + q * grid.dx;
+        const Real share = share_inside((grain.r - Kokkos::sqrt(x * x + off_axis)) * per_width);
+        w += share, wx += share * x, wxx += share * x * x;
+        wu += share * velocity[q], wxu += share * x * velocity[q];
+      }
+      sums.add_row(direction, y, z, {w, wx, wxx, wu, wxu});
     });
   }
 };
 
-/// Sets the momentum of the water inside each grain, a team per grain, and with the impulse of its
-/// markers the force and torque of the water outside:
-///   F = -J / dt + (I - I_before) / dt.
-/// With dt = 0 it only sets the momentum.
-struct LoadsOnGrains {
+/// Sums of a step over a grain: what its markers gave, and the water inside.
+struct WaterOfGrain {
+  ImpulseOnWater given;
+  InnerSums inner;
+};
+
+/// Adds up the water inside each grain, a team per grain.
+struct SumOfInside {
   using Team = Kokkos::TeamPolicy<>::member_type;
   AddInnerFaces inner;
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const ImpulseOnWater*> given;
-  Real density, dt;
-  ExchangeOnGrains exchange;
+  Kokkos::View<WaterOfGrain*> water;
 
   KOKKOS_FUNCTION void operator()(const Team& team) const {
     const int g = team.league_rank();
     const GrainKinematics grain = grains(g);
+    const PatchCorner corner = inner.patch.corner(grain.x);
     InnerSums sums;
     Kokkos::parallel_reduce(
         Kokkos::TeamThreadRange(team, inner.patch.rows()),
-        [&](int row, InnerSums& all) { inner(grain, row, all); }, Kokkos::Sum<InnerSums>(sums));
-    const Real mass = density * sphere_volume(grain.r);
-    const Vec3 momentum = mass * sums.velocity();
-    const Vec3 spin = sphere_inertia(mass, grain.r) * sums.spin();
-    Kokkos::single(Kokkos::PerTeam(team), [&] {
-      if (dt > 0) {
-        exchange.resolved_force(g) =
-            (1 / dt) * (momentum - exchange.inner_momentum(g) - given(g).linear);
-        exchange.resolved_torque(g) = (1 / dt) * (spin - exchange.inner_spin(g) - given(g).angular);
-      }
-      exchange.inner_momentum(g) = momentum;
-      exchange.inner_spin(g) = spin;
-    });
+        [&](int row, InnerSums& all) { inner(grain, corner, row, all); },
+        Kokkos::Sum<InnerSums>(sums));
+    Kokkos::single(Kokkos::PerTeam(team), [&] { water(g) = {given(g), sums}; });
+  }
+};
+
+/// Sets the momentum of the water inside each grain, and with the impulse of its markers the force
+/// and torque of the water outside:
+///   F = -J / dt + (I - I_before) / dt.
+/// With dt = 0 it only sets the momentum.
+struct LoadsOnGrains {
+  Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<const WaterOfGrain*> water;
+  Real density, dt;
+  ExchangeOnGrains exchange;
+
+  KOKKOS_FUNCTION void operator()(int g) const {
+    const auto& [given, inner] = water(g);
+    const Real mass = density * sphere_volume(grains(g).r);
+    const Vec3 momentum = mass * inner.velocity();
+    const Vec3 spin = sphere_inertia(mass, grains(g).r) * inner.spin();
+    if (dt > 0) {
+      exchange.resolved_force(g) =
+          (1 / dt) * (momentum - exchange.inner_momentum(g) - given.linear);
+      exchange.resolved_torque(g) = (1 / dt) * (spin - exchange.inner_spin(g) - given.angular);
+    }
+    exchange.inner_momentum(g) = momentum;
+    exchange.inner_spin(g) = spin;
   }
 };
 

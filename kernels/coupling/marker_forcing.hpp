@@ -4,131 +4,186 @@
 
 #include <cstdint>
 
-#include "kernels/coupling/grain_patch.hpp"
 #include "kernels/coupling/markers.hpp"
 #include "kernels/coupling/void_fraction.hpp"
 #include "kernels/fluid/stencil.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
-#include "kernels/math/device_scalar.hpp"
+#include "kernels/math/on_host.hpp"
 
 namespace barchan {
 
-/// Values of all markers, those of a grain side by side.
-struct MarkerValues {
-  Kokkos::View<Vec3*> wanted;  // velocity that u* should have there [m/s]
-  Kokkos::View<Vec3*> slip;    // what u* lacks of it [m/s]
-  Kokkos::View<Vec3*> given;   // sum of what it got over the loops [m/s]
-};
-
-/// Sets the velocity wanted of u* at each marker: that of the solid, less what the pressure and the
-/// drive of the last step will add,
-///   dt (f - grad p / rho).
-struct WantedAtMarkers {
+/// Velocity of the flow after the step, if pressure and drive are those of the last one:
+///   u* + dt (f - grad p / rho).
+struct VelocityAhead {
   GridRef grid;
-  Markers markers;
+  ConstFaceRef u_star;
   ConstFieldRef p;  // of the last step, with ghosts [Pa]
   Vec2 drive;       // of the last step [m/s^2]
   Real dt, inv_density;
-  MarkerValues values;
 
-  KOKKOS_FUNCTION void operator()(int q) const {
-    const int g = q / markers.n, m = q % markers.n;
-    const MarkerFaces faces(grid, markers.place(g, m));
-    const Vec3 gradient =
-        faces.mean([&](int i, int j, int k) { return ddx_at_xface(grid, p, i, j, k); },
-                   [&](int i, int j, int k) { return ddy_at_yface(grid, p, i, j, k); },
-                   [&](int i, int j, int k) { return ddz_at_zface(grid, p, i, j, k); });
-    const Vec3 push = dt * (Vec3{drive.x, 0, drive.z} - inv_density * gradient);
-    values.wanted(q) = markers.velocity(g, m) - push;
-    values.given(q) = Vec3{};
+  KOKKOS_FORCEINLINE_FUNCTION Real x(int i, int j, int k) const {
+    return u_star.x(i, j, k) + dt * (drive.x - inv_density * ddx_at_xface(grid, p, i, j, k));
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real y(int i, int j, int k) const {
+    return u_star.y(i, j, k) - dt * inv_density * ddy_at_yface(grid, p, i, j, k);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real z(int i, int j, int k) const {
+    return u_star.z(i, j, k) + dt * (drive.z - inv_density * ddz_at_zface(grid, p, i, j, k));
   }
 };
 
-/// Finds the slip of u* at each marker; reduces its largest component [m/s].
-struct SlipAtMarkers {
-  GridRef grid;
-  Markers markers;
-  ConstFaceRef u_star;
-  MarkerValues values;
-
-  KOKKOS_FUNCTION void operator()(int q, Real& largest) const {
-    const MarkerFaces faces(grid, markers.place(q / markers.n, q % markers.n));
-    const Vec3 slip = values.wanted(q) - faces.mean(u_star.x, u_star.y, u_star.z);
-    values.slip(q) = slip;
-    values.given(q) += slip;
-    for (const Real one : {slip.x, slip.y, slip.z})
-      largest = Kokkos::max(largest, Kokkos::abs(one));
-  }
+/// What the grains work with, those of a grain side by side.
+struct MarkerValues {
+  Kokkos::View<Real*> patch;  // of the faces around each grain [m/s]
+  Kokkos::View<Vec3*> read;   // velocity of the flow at each marker [m/s]
+  Kokkos::View<Vec3*> given;  // sum of what each gave over the loops [m/s]
 };
 
-/// Sums on faces in fixed point, so that they do not depend on the order.
-struct MarkerSums {
-  // More grains than can share a face, each giving it the whole slip.
-  static constexpr Real kMostOnFace = 128;
-  Kokkos::View<std::int64_t* [3], Kokkos::LayoutLeft> on_faces;  // (face, direction)
-
-  KOKKOS_FORCEINLINE_FUNCTION static FixedPoint point(Real largest_slip) {
-    return fixed_point_for(kMostOnFace * largest_slip);
-  }
-  KOKKOS_FORCEINLINE_FUNCTION static std::size_t face(const GridRef& grid, int i, int j, int k) {
-    return static_cast<std::size_t>(i) +
-           static_cast<std::size_t>(grid.nx) *
-               (static_cast<std::size_t>(j) +
-                static_cast<std::size_t>(grid.ny) * static_cast<std::size_t>(k));
-  }
-};
-
-/// Spreads the slip of each marker over the faces around it.
-struct SpreadSlip {
-  GridRef grid;
-  Markers markers;
-  Real h;  // width of a cell [m]
-  Kokkos::View<const Vec3*> slip;
-  DeviceScalar largest_slip;
-  MarkerSums sums;
-
-  KOKKOS_FUNCTION void operator()(int q) const {
-    const int g = q / markers.n;
-    const MarkerFaces faces(grid, markers.place(g, q % markers.n));
-    const Real volume = marker_volume((markers.grains(g).r - markers.retraction) / h, markers.n);
-    const FixedPoint point = MarkerSums::point(largest_slip);
-    const Vec3 share = volume * slip(q);
-    const auto give = [&](int direction, Real of_marker) {
-      return [this, &point, direction, of_marker](int i, int j, int k, Real w) {
-        Kokkos::atomic_add(&sums.on_faces(MarkerSums::face(grid, i, j, k), direction),
-                           point.encode(w * of_marker));
-      };
-    };
-    faces.each_x(give(0, share.x)), faces.each_y(give(1, share.y)), faces.each_z(give(2, share.z));
-  }
-};
-
-/// Adds the sums to u*, and clears them. Patches overlap: a sum goes to the first that takes it.
-struct AddToFlow {
+/// Reads the flow at the markers of each grain, a team per grain. On a grid that is cut it reads
+/// the part on this rank.
+struct ReadAtMarkers {
+  using Team = Kokkos::TeamPolicy<>::member_type;
   GrainPatch patch;
-  Kokkos::View<const GrainKinematics*> grains;
-  DeviceScalar largest_slip;
-  MarkerSums sums;
-  FaceRef u_star;
+  Markers markers;
+  VelocityAhead flow;
+  MarkerValues values;
 
-  KOKKOS_FUNCTION void operator()(int item) const {
-    const int g = item / patch.rows();
-    const FixedPoint point = MarkerSums::point(largest_slip);
-    patch.each_cell(grains(g).x, item % patch.rows(), [&](int i, int j, int k) {
-      const std::size_t face = MarkerSums::face(patch.grid, i, j, k);
-      add(face, 0, point, u_star.x(i, j, k));
-      add(face, 1, point, u_star.y(i, j, k));
-      add(face, 2, point, u_star.z(i, j, k));
+  KOKKOS_FUNCTION void operator()(const Team& team) const {
+    const int g = team.league_rank();
+    const PatchCorner corner = patch.corner(markers.grains(g).x);
+    Real* const here = values.patch.data() + static_cast<std::ptrdiff_t>(g) * patch.size();
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, patch.rows()),
+                         [&](int row) { copy(corner, row, here); });
+    team.team_barrier();
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, markers.n), [&](int m) {
+      const MarkerLines lines(patch, corner, markers.place(g, m));
+      values.read(g * markers.n + m) = lines.mean(patch, here);
     });
   }
 
  private:
-  KOKKOS_FORCEINLINE_FUNCTION void add(std::size_t face, int direction, const FixedPoint& point,
-                                       Real& u) const {
-    std::int64_t* const sum = &sums.on_faces(face, direction);
-    if (Kokkos::atomic_load(sum) == 0) return;
-    const std::int64_t taken = Kokkos::atomic_exchange(sum, std::int64_t{0});
-    if (taken != 0) u += point.decode(taken);
+  /// Copies a row of the flow; it is zero where this rank has no faces.
+  KOKKOS_FORCEINLINE_FUNCTION void copy(const PatchCorner& corner, int row, Real* to) const {
+    for (int a = 0; a < patch.n[0]; ++a) to[patch.n[0] * row + a] = 0;
+    const int direction = row / (patch.n[1] * patch.n[2]);
+    patch.each_run(corner, row, [&](int at, int i, int j, int k, int n) {
+      Real* const first = to + at;
+      if (direction == 0) {
+#pragma omp simd
+        for (int q = 0; q < n; ++q) first[q] = flow.x(i + q, j, k);
+      } else if (direction == 1) {
+#pragma omp simd
+        for (int q = 0; q < n; ++q) first[q] = flow.y(i + q, j, k);
+      } else {
+#pragma omp simd
+        for (int q = 0; q < n; ++q) first[q] = flow.z(i + q, j, k);
+      }
+    });
+  }
+};
+
+/// Spreads what the flow lacks at the markers of each grain over the faces of its patch, a team per
+/// grain. On the host a team is one thread: it adds in the order of the markers. On a device they
+/// add at once, in fixed point, so that sums do not depend on the order.
+struct SpreadSlip {
+  using Team = Kokkos::TeamPolicy<>::member_type;
+  GrainPatch patch;
+  Markers markers;
+  Real h;  // width of a cell [m]
+  MarkerValues values;
+
+  KOKKOS_FUNCTION void operator()(const Team& team) const {
+    const int g = team.league_rank(), size = patch.size();
+    const PatchCorner corner = patch.corner(markers.grains(g).x);
+    const Real volume = marker_volume((markers.grains(g).r - markers.retraction) / h, markers.n);
+    Real* const sums = values.patch.data() + static_cast<std::ptrdiff_t>(g) * size;
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, size), [&](int at) { sums[at] = 0; });
+    const FixedPoint point = kOnHost ? FixedPoint{} : point_of(team, g);
+    team.team_barrier();
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, markers.n), [&](int m) {
+      const int q = g * markers.n + m;
+      const Vec3 slip = markers.velocity(g, m) - values.read(q);
+      values.given(q) += slip;
+      const MarkerLines lines(patch, corner, markers.place(g, m));
+      const Real share[3] = {volume * slip.x, volume * slip.y, volume * slip.z};
+      for (int direction = 0; direction < 3; ++direction) {
+        lines.each_line(patch, direction, [&](int at, Real w, const DeltaLine& x) {
+          add(sums + at, share[direction] * w, x, point);
+        });
+      }
+    });
+    if constexpr (!kOnHost) {
+      team.team_barrier();
+      Kokkos::parallel_for(Kokkos::TeamThreadRange(team, size),
+                           [&](int at) { sums[at] = point.decode(*as_integer(sums + at)); });
+    }
+  }
+
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION static std::int64_t* as_integer(Real* number) {
+    return reinterpret_cast<std::int64_t*>(number);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static void add(Real* to, Real w, const DeltaLine& x,
+                                              const FixedPoint& point) {
+    if constexpr (kOnHost) {
+      fma(w, Vec4(x.weight[0], x.weight[1], x.weight[2], 0), Vec4(to)).store(to);
+    } else {
+      for (int a = 0; a < 3; ++a)
+        Kokkos::atomic_add(as_integer(to + a), point.encode(w * x.weight[a]));
+    }
+  }
+  /// Fixed point in which no face can overflow: one that gets the slip of every marker.
+  KOKKOS_FUNCTION FixedPoint point_of(const Team& team, int g) const {
+    Real largest = 0;
+    Kokkos::parallel_reduce(
+        Kokkos::TeamThreadRange(team, markers.n),
+        [&](int m, Real& most) {
+          const Vec3 slip = markers.velocity(g, m) - values.read(g * markers.n + m);
+          for (const Real one : {slip.x, slip.y, slip.z})
+            most = Kokkos::max(most, Kokkos::abs(one));
+        },
+        Kokkos::Max<Real>(largest));
+    return fixed_point_for(2 * markers.n * largest);
+  }
+};
+
+/// Adds the patches of all grains to u*, a team per plane of cells. Grains come one after the
+/// other, so that sums do not depend on threads.
+struct AddToFlow {
+  using Team = Kokkos::TeamPolicy<>::member_type;
+  GrainPatch patch;
+  Kokkos::View<const GrainKinematics*> grains;
+  int n_grains;
+  Kokkos::View<const Real*> patches;
+  FaceRef u_star;
+
+  KOKKOS_FUNCTION void operator()(const Team& team) const {
+    const int k = team.league_rank();
+    for (int g = 0; g < n_grains; ++g) {
+      const PatchCorner corner = patch.corner(grains(g).x);
+      const Real* const sums = patches.data() + static_cast<std::ptrdiff_t>(g) * patch.size();
+      const int across = patch.plane(corner, 0, k), along = patch.plane(corner, 2, k);
+      // In a narrow box a grain may have several planes of its patch here.
+      for (int turn = 0; Kokkos::min(across, along) + turn < patch.n[2];
+           turn += patch.grid.nz_all) {
+        Kokkos::parallel_for(Kokkos::TeamThreadRange(team, 3 * patch.n[1]), [&](int row) {
+          const int direction = row / patch.n[1], c = turn + (direction == 2 ? along : across);
+          if (c < patch.n[2]) add(corner, direction, row % patch.n[1], c, sums);
+        });
+        team.team_barrier();
+      }
+    }
+  }
+
+ private:
+  KOKKOS_FORCEINLINE_FUNCTION void add(const PatchCorner& corner, int direction, int b, int c,
+                                       const Real* sums) const {
+    const FieldRef& u = direction == 0 ? u_star.x : direction == 1 ? u_star.y : u_star.z;
+    patch.each_run(corner, direction, b, c, [&](int at, int i, int j, int k, int n) {
+      Real* const to = &u(i, j, k);
+#pragma omp simd
+      for (int q = 0; q < n; ++q) to[q] += sums[at + q];
+    });
   }
 };
 

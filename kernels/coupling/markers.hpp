@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "kernels/fluid/grid.hpp"
-#include "kernels/grains/grain.hpp"
+#include "kernels/coupling/grain_patch.hpp"
+#include "kernels/math/vec4.hpp"
 
 namespace barchan {
 
@@ -27,9 +27,9 @@ KOKKOS_INLINE_FUNCTION Vec3 marker_direction(int m, int n) {
   return {across * Kokkos::cos(golden_angle * m), y, across * Kokkos::sin(golden_angle * m)};
 }
 
-/// The three points nearest to a marker along one direction, and their weights.
+/// The three points nearest to a marker along one direction, from `at` on, and their weights.
 struct DeltaLine {
-  int at[3];
+  int at;
   Real weight[3];
 };
 
@@ -40,77 +40,76 @@ struct DeltaLine {
 KOKKOS_INLINE_FUNCTION DeltaLine delta_line(Real s) {
   const Real nearest = Kokkos::floor(s + Real(0.5)), q = s - nearest;
   const Real root = Kokkos::sqrt(1 - 3 * q * q), sixth = Real(1) / 6;
-  const int at = static_cast<int>(nearest);
-  return {{at - 1, at, at + 1},
+  return {static_cast<int>(nearest) - 1,
           {(2 - 3 * q - root) * sixth, (1 + root) * (2 * sixth), (2 + 3 * q - root) * sixth}};
-}
-
-/// The same where n points repeat.
-KOKKOS_INLINE_FUNCTION DeltaLine periodic_delta_line(Real s, int n) {
-  DeltaLine line = delta_line(s);
-  for (int& at : line.at) at -= n * static_cast<int>(Kokkos::floor(at / Real(n)));
-  return line;
 }
 
 /// The same between walls, on points [first, last]: those inside share the weight of the others.
 KOKKOS_INLINE_FUNCTION DeltaLine walled_delta_line(Real s, int first, int last) {
   DeltaLine line = delta_line(s);
+  if (line.at >= first && line.at + 2 <= last) return line;
+  if (line.at > last || line.at + 2 < first) {  // behind the wall: the point nearest to it
+    const bool above = line.at > last;
+    return {above ? last : first - 2, {Real(above ? 1 : 0), 0, Real(above ? 0 : 1)}};
+  }
   Real inside = 0;
   for (int q = 0; q < 3; ++q) {
-    const bool is_inside = line.at[q] >= first && line.at[q] <= last;
-    if (!is_inside) line.weight[q] = 0;
-    line.at[q] = Kokkos::clamp(line.at[q], first, last);
+    if (line.at + q < first || line.at + q > last) line.weight[q] = 0;
     inside += line.weight[q];
   }
-  for (Real& weight : line.weight) weight = inside > 0 ? weight / inside : Real(1) / 3;
+  for (Real& weight : line.weight) weight /= inside;
   return line;
 }
 
-/// Faces around a marker: for each direction the lines of faces and of centres. The grid is all on
-/// this rank, and its rows are equally high.
-struct MarkerFaces {
-  DeltaLine x_face, x_centre, y_face, y_centre, z_face, z_centre;
+/// Faces around a marker in the patch of its grain: along each axis the lines of faces and of
+/// centres. Rows are equally high.
+struct MarkerLines {
+  DeltaLine face[3], centre[3];
 
-  KOKKOS_INLINE_FUNCTION MarkerFaces(const GridRef& grid, const Vec3& x)
-      : x_face(periodic_delta_line(x.x / grid.dx, grid.nx)),
-        x_centre(periodic_delta_line(x.x / grid.dx - Real(0.5), grid.nx)),
-        y_face(walled_delta_line(x.y / grid.dy(0), 1, grid.ny - 1)),
-        y_centre(walled_delta_line(x.y / grid.dy(0) - Real(0.5), 0, grid.ny - 1)),
-        z_face(periodic_delta_line(x.z / grid.dz, grid.nz)),
-        z_centre(periodic_delta_line(x.z / grid.dz - Real(0.5), grid.nz)) {}
+  KOKKOS_INLINE_FUNCTION MarkerLines(const GrainPatch& patch, const PatchCorner& from,
+                                     const Vec3& x) {
+    const Vec3& per_cell = patch.per_cell;
+    const Real s[3] = {x.x * per_cell.x, x.y * per_cell.y, x.z * per_cell.z};
+    const Real half = Real(0.5);
+    for (const int axis : {0, 2}) {
+      face[axis] = delta_line(s[axis] - from.face[axis]);
+      centre[axis] = delta_line(s[axis] - half - from.centre[axis]);
+    }
+    const int last = patch.grid.ny - 1;
+    face[1] = walled_delta_line(s[1] - from.face[1], 1 - from.face[1], last - from.face[1]);
+    centre[1] =
+        walled_delta_line(s[1] - half - from.centre[1], -from.centre[1], last - from.centre[1]);
+  }
 
-  /// Calls act(i, j, k, weight) for the faces of one direction.
-  template <class Act>
-  KOKKOS_FORCEINLINE_FUNCTION void each_x(const Act& act) const {
-    each(x_face, y_centre, z_centre, act);
+  /// Mean of the values of a patch around the marker.
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 mean(const GrainPatch& patch, const Real* values) const {
+    return {mean(patch, 0, values), mean(patch, 1, values), mean(patch, 2, values)};
   }
-  template <class Act>
-  KOKKOS_FORCEINLINE_FUNCTION void each_y(const Act& act) const {
-    each(x_centre, y_face, z_centre, act);
-  }
-  template <class Act>
-  KOKKOS_FORCEINLINE_FUNCTION void each_z(const Act& act) const {
-    each(x_centre, y_centre, z_face, act);
-  }
-  /// Mean over the faces of values on them.
-  template <class X, class Y, class Z>
-  KOKKOS_FORCEINLINE_FUNCTION Vec3 mean(const X& of_x, const Y& of_y, const Z& of_z) const {
-    Vec3 sum;
-    each_x([&](int i, int j, int k, Real w) { sum.x = fma(w, of_x(i, j, k), sum.x); });
-    each_y([&](int i, int j, int k, Real w) { sum.y = fma(w, of_y(i, j, k), sum.y); });
-    each_z([&](int i, int j, int k, Real w) { sum.z = fma(w, of_z(i, j, k), sum.z); });
-    return sum;
+  /// Calls give(place in the patch, w, x) for lines of three faces of a direction; their weights
+  /// are w times the three of x.
+  template <class Give>
+  KOKKOS_FORCEINLINE_FUNCTION void each_line(const GrainPatch& patch, int direction,
+                                             const Give& give) const {
+    const DeltaLine& x = line(0, direction);
+    const DeltaLine& y = line(1, direction);
+    const DeltaLine& z = line(2, direction);
+    const int first = patch.place(direction, x.at, y.at, z.at);
+    for (int c = 0; c < 3; ++c)
+      for (int b = 0; b < 3; ++b)
+        give(first + patch.n[0] * (b + patch.n[1] * c), y.weight[b] * z.weight[c], x);
   }
 
  private:
-  template <class Act>
-  KOKKOS_FORCEINLINE_FUNCTION static void each(const DeltaLine& x, const DeltaLine& y,
-                                               const DeltaLine& z, const Act& act) {
-    for (int c = 0; c < 3; ++c)
-      for (int b = 0; b < 3; ++b) {
-        const Real w = y.weight[b] * z.weight[c];
-        for (int a = 0; a < 3; ++a) act(x.at[a], y.at[b], z.at[c], x.weight[a] * w);
-      }
+  KOKKOS_FORCEINLINE_FUNCTION const DeltaLine& line(int axis, int direction) const {
+    return axis == direction ? face[axis] : centre[axis];
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Real mean(const GrainPatch& patch, int direction,
+                                        const Real* values) const {
+    Vec4 sum(0, 0, 0, 0);
+    each_line(patch, direction,
+              [&](int at, Real w, const DeltaLine&) { sum = fma(w, Vec4(values + at), sum); });
+    const Real* const w = line(0, direction).weight;
+    return dot(sum.vec(), {w[0], w[1], w[2]});
   }
 };
 

@@ -14,9 +14,12 @@ constexpr int kLoops = 3;            // of forcing in a step
 constexpr Real kRetraction = 0.35;   // of markers into the grain [cells]
 constexpr Real kReachOfDelta = 1.5;  // [cells]
 
-/// Policy of a team for each grain. On the host a team is one thread, so that sums do not depend on
-/// the number of threads.
-Kokkos::TeamPolicy<> teams(int n_grains) { return {n_grains, kOnHost ? 1 : 128}; }
+/// Policy of so many teams. On the host a team is one thread, so that sums do not depend on the
+/// number of threads.
+Kokkos::TeamPolicy<> teams(int n) {
+  if (kOnHost) return {n, 1};
+  return {n, Kokkos::AUTO};
+}
 
 /// The markers' directions are those of the largest grain: smaller ones have them closer together.
 Markers make_markers(Real h, Real r_max) {
@@ -34,17 +37,12 @@ Real width_of_cells(const Grid& grid) { return std::cbrt(grid.dx * (grid.ly / gr
 }  // namespace
 
 ImmersedBoundary::ImmersedBoundary(const Grid& grid, Real density, Real r_max)
-    : grid_(grid),
-      density_(density),
-      h_(width_of_cells(grid)),
-      patch_(GrainPatch::of(grid,
-                            r_max + kReachOfDelta * std::max({grid.dx, grid.ly / grid.ny, grid.dz}),
-                            grid.ly / grid.ny)),
-      markers_(make_markers(h_, r_max)),
-      sums_{
-          {"immersed: sums", static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny) *
-                                 static_cast<std::size_t>(grid.nz)}},
-      largest_slip_("immersed: largest slip", kLoops) {}
+    : grid_(grid), density_(density), h_(width_of_cells(grid)), markers_(make_markers(h_, r_max)) {
+  const Real dy = grid.ly / grid.ny;
+  patch_ = GrainPatch::of(grid, r_max - markers_.retraction, kReachOfDelta, dy);
+  patch_.first_y_face = 1;
+  inside_ = GrainPatch::of(grid, r_max + h_ / 2, 0, dy);
+}
 
 void ImmersedBoundary::place(const GrainState& grains) {
   n_grains_ = grains.n;
@@ -54,51 +52,46 @@ void ImmersedBoundary::place(const GrainState& grains) {
              n_markers = n * static_cast<std::size_t>(markers_.n);
   if (impulse_.extent(0) >= n) return;
   impulse_ = Kokkos::View<ImpulseOnWater*>("immersed: impulse", n);
-  values_ = {.wanted = Kokkos::View<Vec3*>("immersed: wanted", n_markers),
-             .slip = Kokkos::View<Vec3*>("immersed: slip", n_markers),
+  water_ = Kokkos::View<WaterOfGrain*>("immersed: water", n);
+  values_ = {.patch = Kokkos::View<Real*>("immersed: patches",
+                                          n * static_cast<std::size_t>(patch_.size())),
+             .read = Kokkos::View<Vec3*>("immersed: read", n_markers),
              .given = Kokkos::View<Vec3*>("immersed: given", n_markers)};
 }
 
-LoadsOnGrains ImmersedBoundary::loads(const FaceVector& u, Real dt) const {
-  return {.inner = {patch_, u},
-          .grains = markers_.grains,
-          .given = impulse_,
-          .density = density_,
-          .dt = dt,
-          .exchange = exchange_};
-}
-
-void ImmersedBoundary::start(const FaceVector& u) const {
-  Kokkos::parallel_for("immersed: momentum inside", teams(n_grains_), loads(u, 0));
+/// With dt = 0 sets the momentum inside alone.
+void ImmersedBoundary::set_loads(const FaceVector& u, Real dt) const {
+  Kokkos::parallel_for(
+      "immersed: momentum inside", teams(n_grains_),
+      SumOfInside{
+          .inner = {inside_, u}, .grains = markers_.grains, .given = impulse_, .water = water_});
+  Kokkos::parallel_for("immersed: loads", items(n_grains_),
+                       LoadsOnGrains{.grains = markers_.grains,
+                                     .water = water_,
+                                     .density = density_,
+                                     .dt = dt,
+                                     .exchange = exchange_});
 }
 
 /// Forcing in loops: what markers give to faces that they share is corrected in the next one.
 void ImmersedBoundary::force(const FlowStep& step) const {
-  const int n = n_grains_ * markers_.n;
-  Kokkos::parallel_for("immersed: velocity wanted", items(n),
-                       WantedAtMarkers{.grid = grid_,
-                                       .markers = markers_,
-                                       .p = step.fluid.p,
-                                       .drive = step.fluid.drive,
-                                       .dt = step.dt,
-                                       .inv_density = 1 / density_,
-                                       .values = values_});
+  const VelocityAhead ahead{.grid = grid_,
+                            .u_star = step.u_star,
+                            .p = step.fluid.p,
+                            .drive = step.fluid.drive,
+                            .dt = step.dt,
+                            .inv_density = 1 / density_};
+  Kokkos::deep_copy(values_.given, Vec3{});
   for (int loop = 0; loop < kLoops; ++loop) {
-    Kokkos::parallel_reduce("immersed: slip", items(n),
-                            SlipAtMarkers{grid_, markers_, step.u_star, values_},
-                            largest_slip_.largest_into(loop));
-    Kokkos::parallel_for("immersed: spread", items(n),
-                         SpreadSlip{.grid = grid_,
-                                    .markers = markers_,
-                                    .h = h_,
-                                    .slip = values_.slip,
-                                    .largest_slip = largest_slip_.scalar(loop),
-                                    .sums = sums_});
-    Kokkos::parallel_for("immersed: add to flow", items(n_grains_ * patch_.rows()),
+    Kokkos::parallel_for("immersed: read", teams(n_grains_),
+                         ReadAtMarkers{patch_, markers_, ahead, values_});
+    Kokkos::parallel_for("immersed: spread", teams(n_grains_),
+                         SpreadSlip{patch_, markers_, h_, values_});
+    Kokkos::parallel_for("immersed: add to flow", teams(grid_.nz),
                          AddToFlow{.patch = patch_,
                                    .grains = markers_.grains,
-                                   .largest_slip = largest_slip_.scalar(loop),
-                                   .sums = sums_,
+                                   .n_grains = n_grains_,
+                                   .patches = values_.patch,
                                    .u_star = step.u_star});
   }
 }
@@ -120,7 +113,7 @@ void ImmersedBoundary::after_predict(const FlowStep& step) {
 }
 
 void ImmersedBoundary::after_correct(const FlowStep& step) {
-  Kokkos::parallel_for("immersed: loads", teams(n_grains_), loads(step.fluid.u, step.dt));
+  set_loads(step.fluid.u, step.dt);
   Kokkos::parallel_reduce("immersed: sum of loads", items(n_grains_),
                           SumOfLoads{exchange_.resolved_force}, step.numbers.into<Vec3>(kOfTerms));
 }

@@ -20,7 +20,7 @@ class ImmersedBoundary : public FlowTerm {
   /// Takes grains as they are at the end of the fluid step that comes.
   void place(const GrainState& grains);
   /// Sets the momentum of the water inside them.
-  void start(const FaceVector& u) const;
+  void start(const FaceVector& u) const { set_loads(u, 0); }
 
   void after_predict(const FlowStep& step) override;
   void after_correct(const FlowStep& step) override;
@@ -33,19 +33,18 @@ class ImmersedBoundary : public FlowTerm {
 
  private:
   void force(const FlowStep& step) const;
-  LoadsOnGrains loads(const FaceVector& u, Real dt) const;
+  void set_loads(const FaceVector& u, Real dt) const;
 
   Grid grid_;
-  Real density_;      // of the water [kg/m^3]
-  Real h_;            // width of a cell [m]
-  GrainPatch patch_;  // cells that markers reach
+  Real density_;  // of the water [kg/m^3]
+  Real h_;        // width of a cell [m]
   Markers markers_;
+  GrainPatch patch_, inside_;  // faces that markers reach; those inside a grain
   int n_grains_ = 0;
   ExchangeOnGrains exchange_;
   MarkerValues values_;
-  MarkerSums sums_;
   Kokkos::View<ImpulseOnWater*> impulse_;  // of the markers of each grain
-  DeviceReductions largest_slip_;
+  Kokkos::View<WaterOfGrain*> water_;
   Vec3 force_on_grains_;
 };
 

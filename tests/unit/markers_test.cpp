@@ -15,9 +15,9 @@ TEST(Markers, DeltaKeepsSumAndFirstMoment) {
     const DeltaLine line = delta_line(s);
     Real sum = 0, moment = 0, square = 0;
     for (int q = 0; q < 3; ++q) {
-      sum += line.weight[q], moment += line.weight[q] * (line.at[q] - s);
+      sum += line.weight[q], moment += line.weight[q] * (line.at + q - s);
       square += line.weight[q] * line.weight[q];
-      const Real r = std::abs(line.at[q] - s);
+      const Real r = std::abs(line.at + q - s);
       const Real phi = r < 0.5 ? (1 + std::sqrt(1 - 3 * r * r)) / 3
                                : (5 - 3 * r - std::sqrt(1 - 3 * (1 - r) * (1 - r))) / 6;
       EXPECT_NEAR(line.weight[q], phi, 1e-14);
@@ -29,16 +29,16 @@ TEST(Markers, DeltaKeepsSumAndFirstMoment) {
   }
 }
 
-TEST(Markers, DeltaAtWallsAndEndsOfAPeriod) {
-  for (const Real s : {-0.9, 0.1, 0.6, 7.2, 7.9}) {
-    const DeltaLine walled = walled_delta_line(s, 0, 7), round = periodic_delta_line(s - 16, 8);
-    Real sum = 0;
+TEST(Markers, DeltaAtWalls) {
+  for (const Real s : {-40.0, -0.9, 0.1, 0.6, 3.4, 7.2, 7.9, 40.0}) {
+    const DeltaLine walled = walled_delta_line(s, 0, 7);
+    Real inside = 0;
     for (int q = 0; q < 3; ++q) {
-      sum += walled.weight[q];
-      for (const int at : {walled.at[q], round.at[q]}) EXPECT_TRUE(at >= 0 && at < 8) << s;
-      EXPECT_EQ(round.weight[q], delta_line(s - 16).weight[q]);
+      const bool is_inside = walled.at + q >= 0 && walled.at + q <= 7;
+      EXPECT_TRUE(is_inside || walled.weight[q] == 0) << s;
+      inside += is_inside ? walled.weight[q] : 0;
     }
-    EXPECT_NEAR(sum, 1, 1e-15);
+    EXPECT_NEAR(inside, 1, 1e-15) << s;
   }
 }
 
@@ -80,13 +80,72 @@ struct SolidFlow {
   }
 };
 
+/// Copies the flow to a patch of a grain, and counts the faces.
+int copy_to_patch(const GrainPatch& patch, const PatchCorner& corner, const ConstFaceRef& flow,
+                  std::vector<Real>& values) {
+  int faces = 0;
+  values.assign(static_cast<std::size_t>(patch.size()), 0);
+  for (int row = 0; row < patch.rows(); ++row) {
+    const int direction = row / (patch.n[1] * patch.n[2]);
+    const ConstFieldRef& u = direction == 0 ? flow.x : direction == 1 ? flow.y : flow.z;
+    patch.each_run(corner, row, [&](int at, int i, int j, int k, int n) {
+      for (int q = 0; q < n; ++q) values[static_cast<std::size_t>(at + q)] = u(i + q, j, k);
+      faces += n;
+    });
+  }
+  return faces;
+}
+
 TEST(Markers, ReadASolidMotionExactly) {
   SolidFlow solid;
   const test::HostGrid h(solid.grid);
   const HostField x = to_host(solid.flow.x), y = to_host(solid.flow.y), z = to_host(solid.flow.z);
-  for (const Vec3& at : {Vec3{0.71, 0.83, 1.14}, Vec3{1.5, 1.27, 0.4}}) {
-    const Vec3 read = MarkerFaces(h.ref(), at).mean(x, y, z);
-    EXPECT_LT(norm(read - solid.u - cross(solid.omega, at - solid.centre)), 1e-13);
+  const GrainPatch patch = GrainPatch::of(h.ref(), 4.3 * SolidFlow::h, 1.5, SolidFlow::h);
+  std::vector<Real> values;
+  for (const Vec3& at : {Vec3{0.71, 0.83, 1.14}, Vec3{1.4, 1.27, 0.7}, Vec3{1, 0.95, 0.75}}) {
+    const PatchCorner corner = patch.corner(at);
+    EXPECT_EQ(copy_to_patch(patch, corner, {x.ref(), y.ref(), z.ref()}, values),
+              patch.rows() * patch.n[0]);
+    for (int m = 0; m < 50; ++m) {
+      const Vec3 marker = at + 4.3 * SolidFlow::h * marker_direction(m, 50);
+      const Vec3 read = MarkerLines(patch, corner, marker).mean(patch, values.data());
+      EXPECT_LT(norm(read - solid.u - cross(solid.omega, marker - solid.centre)), 1e-13);
+    }
+  }
+}
+
+/// Where a grain lies over an end of the box, or in a box that is narrower than its patch, its
+/// faces are those of the cells that repeat.
+TEST(Markers, PatchGoesOnOverTheEndsOfAPeriod) {
+  const Grid grid = stretched_grid({6, 20, 20}, {0.6, 2, 2}, 0);
+  FaceVector flow = make_faces("test: flow", grid);
+  const auto wave = [](Real x, Real z) {
+    return std::sin(10.0 / 3 * M_PI * x) + std::cos(M_PI * z);
+  };
+  set_faces(flow, grid, [&](std::size_t, Real x, Real y, Real z) { return wave(x, z) + y; });
+  const test::HostGrid h(grid);
+  const HostField x = to_host(flow.x), y = to_host(flow.y), z = to_host(flow.z);
+  const GrainPatch patch = GrainPatch::of(h.ref(), 0.43, 1.5, 0.1);
+  std::vector<Real> values;
+  for (const Vec3& at : {Vec3{0.03, 0.1, 1.98}, Vec3{-0.3, 1.9, -0.05}, Vec3{0.59, 5, 2.3}}) {
+    const PatchCorner corner = patch.corner(at);
+    copy_to_patch(patch, corner, {x.ref(), y.ref(), z.ref()}, values);
+    for (int direction = 0; direction < 3; ++direction)
+      for (int c = 0; c < patch.n[2]; ++c)
+        for (int b = 0; b < patch.n[1]; ++b)
+          for (int a = 0; a < patch.n[0]; ++a) {
+            const auto place = [&](int axis, int n) {
+              return 0.1 * (corner.of(axis, direction) + n + (axis == direction ? 0 : 0.5));
+            };
+            const int row = corner.of(1, direction) + b;
+            const bool is_inside = row >= 0 && row < 20;
+            const Real value = values[static_cast<std::size_t>(patch.place(direction, a, b, c))];
+            EXPECT_NEAR(value, is_inside ? wave(place(0, a), place(2, c)) + place(1, b) : 0, 1e-13);
+          }
+    for (int k = 0; k < 20; ++k) {
+      const int plane = patch.plane(corner, 2, k);
+      EXPECT_EQ((corner.of(2, 2) + plane - k) % 20, 0);
+    }
   }
 }
 
@@ -96,10 +155,10 @@ TEST(InnerMomentum, IsThatOfASolidMotion) {
   const HostField x = to_host(solid.flow.x), y = to_host(solid.flow.y), z = to_host(solid.flow.z);
   GrainKinematics grain;
   grain.x = solid.centre, grain.r = 0.42;
-  const GrainPatch patch = GrainPatch::of(h.ref(), grain.r + 1.5 * SolidFlow::h, SolidFlow::h);
+  const GrainPatch patch = GrainPatch::of(h.ref(), grain.r, 0.5, SolidFlow::h);
   const AddInnerFaces add{patch, {x.ref(), y.ref(), z.ref()}};
   InnerSums sums;
-  for (int row = 0; row < patch.rows(); ++row) add(grain, row, sums);
+  for (int row = 0; row < patch.rows(); ++row) add(grain, patch.corner(grain.x), row, sums);
   EXPECT_LT(norm(sums.velocity() - solid.u), 0.02 * norm(solid.u));      // the centre of the faces
   EXPECT_LT(norm(sums.spin() - solid.omega), 2e-3 * norm(solid.omega));  // products of a and b
   const Real volume = sums.x.w * std::pow(SolidFlow::h, 3);
