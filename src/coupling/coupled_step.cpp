@@ -51,7 +51,8 @@ CoupledStep::CoupledStep(const CoupledCase& config, SystemState& state)
     add_exchange(*state.grains, coupling.forces);
     if (coupling.scheme == CouplingScheme::resolved)
       (frozen_ ? add_resolved_forces : add_immersed)(*state.grains);
-    fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(grains), coupling.forces);
+    if (!is_immersed(coupling, grains))  // whose scheme finds the grains of other ranks
+      fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(grains), coupling.forces);
     exchange_ = make_exchange_scheme(config, *fluid_, *state.grains, state.fluid->grid);
     grains_->list().use_scratch(ScratchMemory(fluid_->workspace().of_any_bits()));
   } else if (grains.ambient) {

@@ -1,18 +1,11 @@
 #include "src/coupling/immersed_flow.hpp"
 
-#include "src/base/errors.hpp"
-#include "src/parallel/decomposition.hpp"
 #include "src/parallel/launch.hpp"
 
 namespace barchan {
 
 ImmersedFlow::ImmersedFlow(const CoupledCase& config, FluidSolver& solver, const GrainState& grains,
                            const Grid& grid) {
-  if (rank_count(ranks_of(grid)) > 1) {
-    throw ConfigError(
-        {"coupling.scheme: grains that move in a resolved flow run on one rank; use threads, or "
-         "grains.frozen = true"});
-  }
   const Real density = config.fluid->fluid.density;
   const auto& g = config.grains->grains.gravity;
   weight_ = {.gravity = {g[0], g[1], g[2]}, .displaced = density};

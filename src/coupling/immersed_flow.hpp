@@ -10,10 +10,9 @@ namespace barchan {
 
 /// Scheme "resolved" where grains move: they are immersed in the flow, which has no fraction and no
 /// drag law. Over the grain steps of a fluid step a grain feels the force and torque of the fluid
-/// step before.
+/// step before. Where the grid is cut it has the grains of this rank, wherever they are.
 class ImmersedFlow : public ExchangeScheme {
  public:
-  /// Throws std::runtime_error where the flow is cut among ranks.
   ImmersedFlow(const CoupledCase& config, FluidSolver& solver, const GrainState& grains,
                const Grid& grid);
 
