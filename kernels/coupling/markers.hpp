@@ -9,6 +9,9 @@
 
 namespace barchan {
 
+inline constexpr Real kRetraction = 0.35;   // of markers into the grain [cells]
+inline constexpr Real kReachOfDelta = 1.5;  // [cells]
+
 /// Number of markers that cover a sphere of so many cells, each with the volume of a cell in a
 /// shell one cell thick; Uhlmann (2005), equation A.1. `radius`: of the markers, in cells.
 KOKKOS_INLINE_FUNCTION constexpr int markers_on_sphere(Real radius) {

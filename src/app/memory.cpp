@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "kernels/coupling/markers.hpp"
 #include "src/base/errors.hpp"
 #include "src/fluid/fluid_state.hpp"
 #include "src/parallel/communicator.hpp"
@@ -21,6 +23,20 @@ constexpr double kBytesPerGrain = 1000;
 double bytes_per_grain(const Config& config) {
   if (config.bodies.empty()) return kBytesPerGrain;
   return kBytesPerGrain + 70 + 48 * static_cast<double>(config.bodies.size());
+}
+
+/// Bytes of the markers of a grain that moves in a resolved flow, and of the faces around it: three
+/// boxes of numbers, and two vectors for each marker.
+double bytes_of_markers(const Config& config, const std::vector<SizeClass>& sizes) {
+  const auto& [nx, ny, nz] = config.fluid->cells;
+  const double width = std::cbrt(config.size[0] * config.size[1] * config.size[2] /
+                                 (static_cast<double>(nx) * ny * nz));
+  double largest = 0;
+  for (const SizeClass& size : sizes) largest = std::max(largest, size.diameter);
+  const double radius = largest / 2 / width - kRetraction;
+  if (radius < 0) return 0;
+  return 8 * (3 * std::pow(std::floor(2 * (radius + kReachOfDelta)) + 1, 3) +
+              6 * markers_on_sphere(radius));
 }
 
 /// Bytes of a cell: the state, about 30 numbers of work space and two complex transforms.
@@ -47,7 +63,9 @@ double memory_of_case(const Config& config, const std::vector<SizeClass>& sizes)
     bytes += bytes_per_cell() * nx * ny * nz;
   }
   if (config.grains) {
-    const double of_grain = bytes_per_grain(config);
+    double of_grain = bytes_per_grain(config);
+    if (config.fluid && is_immersed(config.coupling, *config.grains))
+      of_grain += bytes_of_markers(config, sizes);
     bytes += of_grain * fed_grains(config);
     for (const SizeClass& size : sizes) bytes += of_grain * static_cast<double>(size.count);
   }

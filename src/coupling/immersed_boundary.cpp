@@ -11,9 +11,7 @@ namespace barchan {
 
 namespace {
 
-constexpr int kLoops = 3;            // of forcing in a step
-constexpr Real kRetraction = 0.35;   // of markers into the grain [cells]
-constexpr Real kReachOfDelta = 1.5;  // [cells]
+constexpr int kLoops = 3;  // of forcing in a step
 
 /// Policy of so many teams. On the host a team is one thread, so that sums do not depend on the
 /// number of threads.

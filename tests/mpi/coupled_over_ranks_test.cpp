@@ -297,5 +297,57 @@ TEST(CoupledOverRanks, TwentyStepsWithAllArraysOfAGrainAsOnOneRank) {
   twenty_steps(c);
 }
 
+/// Six grains in a resolved flow, in a box that they do not fill, which cross the middle and both
+/// ends of it.
+Config immersed_case() {
+  Config c = test::coupled_config();
+  c.size = {0.004, 0.003, 0.004};
+  c.coupling.scheme = CouplingScheme::resolved;
+  c.coupling.smoothing_length = 0;
+  c.fluid->cells = {24, 18, 24};
+  c.fluid->first_cell_height = 0;
+  c.fluid->turbulence = Turbulence::none;
+  c.fluid->kinematic_viscosity = 1e-5;
+  c.grains->boundary_x = GrainBoundaryX::periodic;
+  c.grains->sizes = {{.diameter = 1e-3, .count = 6}};
+  c.initial.fluid = "still";
+  c.initial.pour->centre = {0.0039, 0.0021};
+  c.initial.pour->radius = 0.0011;
+  c.time = {.end = 1, .fluid_step = 1e-4, .grain_step = 5e-6};
+  return c;
+}
+
+void push(const GrainState& grains) {
+  const auto kin = grains.kin;
+  Kokkos::parallel_for(
+      "test: push", grains.n, KOKKOS_LAMBDA(int g) {
+        kin(g).u = {0.3, 0, -0.2};
+        kin(g).omega = {100, 50, 0};
+      });
+}
+
+TEST(CoupledOverRanks, ImmersedGrainsMoveAsOnOneRank) {
+  const Config c = immersed_case();
+  Coupled whole(c);
+  push(*whole.state.grains);
+  for (int s = 0; s < 20; ++s) whole.step.advance(whole.state);
+  for (const int along_x : shapes(c)) {
+    SCOPED_TRACE(along_x);
+    Coupled shared(c, MPI_COMM_WORLD, {}, along_x);
+    push(*shared.state.grains);
+    for (int s = 0; s < 20; ++s) shared.step.advance(shared.state);
+    const auto off = differences(by_id(numbers_of(*whole.state.grains)),
+                                 by_id(from_all_ranks(numbers_of(*shared.state.grains))));
+    const Grid& grid = shared.state.fluid->grid;
+    EXPECT_LT(off[0], 1e-12);
+    EXPECT_LT(off[1], 1e-11);
+    EXPECT_LT(off[2], 1e-11);
+    EXPECT_LT(difference(whole.state.fluid->u.x, shared.state.fluid->u.x, grid), 1e-12);
+    EXPECT_LT(difference(whole.state.fluid->u.z, shared.state.fluid->u.z, grid), 1e-12);
+    const Vec3 force = shared.step.impulse_on_grains() - whole.step.impulse_on_grains();
+    EXPECT_LT(norm(force), 1e-11 * norm(whole.step.impulse_on_grains()));
+  }
+}
+
 }  // namespace
 }  // namespace barchan

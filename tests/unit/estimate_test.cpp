@@ -1,11 +1,13 @@
 // Estimates of `check` before a case is run: its grains, its starts, and how long it will take.
 #include "src/app/estimate.hpp"
+#include "kernels/coupling/markers.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
+#include "kernels/coupling/markers.hpp"
 #include "src/app/check_case.hpp"
 #include "src/app/memory.hpp"
 #include "src/base/errors.hpp"
@@ -38,6 +40,19 @@ TEST(Memory, GrowsWithCellsAndGrains) {
   EXPECT_DOUBLE_EQ(memory_of_case(c, {}), 8 * (14 + 30 + 4) * 16000.0);
   EXPECT_DOUBLE_EQ(memory_of_case(c, kSizes) - memory_of_case(c, {}), 1000 * 1000.0);
   EXPECT_EQ(memory_line(c, {}), "  memory                  about 6 MB\n");
+}
+
+/// 8 cells a diameter: 11 faces across a patch, 168 markers.
+TEST(Memory, MarkersOfResolvedGrainsCount) {
+  Config c = dune();
+  const std::vector<SizeClass> grains{{.diameter = 8e-3, .count = 10}};
+  const double without = memory_of_case(c, grains);
+  c.coupling.scheme = CouplingScheme::resolved;
+  const double markers = markers_on_sphere(4 - kRetraction);
+  EXPECT_DOUBLE_EQ(memory_of_case(c, grains) - without,
+                   10 * 8 * (3 * 11.0 * 11 * 11 + 6 * markers));
+  c.grains->frozen = true;
+  EXPECT_DOUBLE_EQ(memory_of_case(c, grains), without);
 }
 
 TEST(RunSeconds, CountEachPartAsOftenAsItIsDone) {
