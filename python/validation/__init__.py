@@ -23,6 +23,7 @@ from validation import contacts
 from validation import flow
 from validation import laminar_bed
 from validation import resolved_bed
+from validation import resolved_spheres
 from validation import threshold
 from validation import water
 from barchan.plot import fail
@@ -41,8 +42,10 @@ FIGURES = {
     threshold.NAME: threshold.draw,
     laminar_bed.NAME: laminar_bed.draw,
     resolved_bed.NAME: resolved_bed.draw,
+    resolved_spheres.NAME: resolved_spheres.draw,
 }
-STUDIES = {module.NAME: module for module in (bed_load, threshold, laminar_bed, resolved_bed)}
+STUDIES = {module.NAME: module
+           for module in (bed_load, threshold, laminar_bed, resolved_bed, resolved_spheres)}
 
 
 def parse(arguments):
