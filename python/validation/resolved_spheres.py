@@ -10,6 +10,8 @@ import json
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
 from barchan.errors import MissingData
 from barchan.figures import style
@@ -19,6 +21,7 @@ from validation import tables
 
 NAME = "resolved_spheres"
 COLUMNS = "what,case,x,y"
+PICTURES = 16, 22, 28, 34  # times of the pictures of two spheres, over sqrt(d/g)
 GAP = 0.1  # at which a rebound is measured
 SETTLING = 0.0360, 0.0572, 0.0873, 0.1222  # ten Cate et al. (2002) [m/s]
 SINKING = {"Ga144": 1.285, "Re100": 1.108, "Re50": 0.920, "Re10": 0.560}  # Uhlmann & Dusek (2014), Clift et al. (1978)
@@ -85,7 +88,7 @@ MEASURED = {"settling-study": settling, "sinking-study": sinking, "rebound-study
 
 
 def save(runs, folder):
-    """Keeps the curves of the finished runs as resolved_spheres.csv; its path."""
+    """Keeps the curves of the finished runs as resolved_spheres.csv; its path. Draws the two spheres, tumbling.png."""
     lines, about = [], {}
     for name, measure in MEASURED.items():
         for file in sorted(Path(runs).glob(f"resolved-{name}/**/grains.h5")):
@@ -96,11 +99,43 @@ def save(runs, folder):
                      "commit": identity["git_hash"], "machine": f'{tables.machine()}; {identity["device"]}',
                      "date": datetime.date.today().isoformat()}
             for what, x, y in measure(Tracks(run)):
-                lines += [f"{what},{file.parent.name},{x[n]:.5g},{y[n]:.5g}" for n in thin(len(x), 120)]
+                lines += [f"{what},{file.parent.name},{x[n]:.5g},{y[n]:.5g}" for n in thin(len(x), 60)]
     if not lines:
         raise MissingData(f"needs a finished run of a study resolved-* in {runs}")
+    pair = Path(runs) / "resolved-tumbling"
+    if (pair / "fields.h5").exists():
+        figure = draw_pair(RunFolder(pair), Figure(figsize=(style.FULL_WIDTH, 2.9), layout="constrained"))
+        style.save(figure, folder, "tumbling", "Barchan, validation")
     tables.write(folder / f"{NAME}.csv", about, [COLUMNS, *lines])
     return folder / f"{NAME}.csv"
+
+
+def draw_pair(run, figure):
+    """The flow around two spheres in the plane through both at four times: speed over sqrt(g d) and streamlines."""
+    tracks, panels = Tracks(run), figure.subplots(1, len(PICTURES))
+    unit = np.sqrt(tracks.gravity * tracks.d)
+    for axes, wanted in zip(panels, PICTURES):
+        frame = int(np.argmin(abs(run.need_fields().times * unit / tracks.d - wanted)))
+        time = run.field_file.times[frame]
+        x = tracks.x[np.argmin(abs(tracks.t - time))]
+        flow, middle = run.flow_plane(frame, x[:, 2].mean()), x[:, 1].mean() / tracks.d
+        seen = abs(flow.y / tracks.d - middle - 1.5) < 5
+        u, v = flow.u[seen] / unit, flow.v[seen] / unit
+        across, up = flow.x / tracks.d, flow.y[seen] / tracks.d
+        image = axes.pcolormesh(across, up, np.hypot(u, v), cmap=style.VELOCITY_MAP, vmin=0, vmax=0.55,
+                                shading="gouraud", rasterized=True)
+        even = np.linspace(across[0], across[-1], 61), np.linspace(up[0], up[-1], 101)
+        at = tuple(np.searchsorted(known, points).clip(0, len(known) - 1)
+                   for known, points in zip((across, up), even))
+        axes.streamplot(*even, u[np.ix_(at[1], at[0])], v[np.ix_(at[1], at[0])], color="w", linewidth=0.4,
+                        density=0.9, arrowsize=0.5)
+        for place, colour in zip(x / tracks.d, (style.VERMILLION, style.ORANGE)):
+            axes.add_patch(Circle(place[:2], 0.5, fc=colour, ec="k", lw=0.6, zorder=5))
+        axes.set(aspect="equal", xlim=(0, across[-1]), ylim=(up[0], up[-1]), xlabel="$x/d$")
+        axes.set_title(rf"$t$ = {time * unit / tracks.d:.1f} $\sqrt{{d/g}}$", pad=3)
+    panels[0].set_ylabel("$y/d$")
+    figure.colorbar(image, ax=panels, shrink=0.7, pad=0.02).set_label(r"speed over $\sqrt{g d}$")
+    return figure
 
 
 def summary(folder):
@@ -141,7 +176,7 @@ def draw(folder):
         curve = table.where("what", "migration").where("case", case)
         drifts.plot(curve["x"], curve["y"], lw=0.9, label=case)
     drifts.axhline(SMALL, color="k", lw=0.7, ls=":")
-    drifts.set(xlabel="$t$ (s)", ylabel="from the middle, half widths", ylim=(0, 1))
+    drifts.set(xlabel="$t$ (s)", ylabel="from the middle", ylim=(0, 1))
     for index, axes in enumerate(panels):
         style.panel_label(axes, index)
     return figure

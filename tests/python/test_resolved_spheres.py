@@ -4,6 +4,7 @@ import types
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from validation import resolved_spheres, tables
 
 from barchan import MissingData
@@ -62,3 +63,14 @@ def test_the_saved_table_is_drawn_and_summed_up(tmp_path):
     tables.write(tmp_path / "resolved_spheres.csv", {}, [resolved_spheres.COLUMNS, *lines])
     assert next(resolved_spheres.summary(tmp_path)) == "sinking, Ga144 | x 2 | 0.2 | 0.2"
     assert len(resolved_spheres.draw(tmp_path).axes) == 5
+
+
+def test_two_spheres_are_drawn_with_the_flow_around_them(monkeypatch):
+    monkeypatch.setattr(resolved_spheres, "Tracks", lambda _: built([[[2, 10, 3], [4, 11, 3]]], np.zeros((1, 2, 3))))
+    at = np.linspace(0, 1, 9)
+    flow = types.SimpleNamespace(x=6 * D * at, y=24 * D * at, u=np.ones((9, 9)), v=np.ones((9, 9)))
+    file = types.SimpleNamespace(times=np.array([0.0]))
+    run = types.SimpleNamespace(need_fields=lambda: file, field_file=file, flow_plane=lambda frame, z: flow)
+    figure = resolved_spheres.draw_pair(run, Figure())
+    assert len(figure.axes) == 5
+    assert len(figure.axes[0].patches) >= 2
