@@ -157,14 +157,14 @@ def draw(folder):
         sinks.plot(20.5, expected, marker="o", ms=4, mfc="none", color=line.get_color())
     sinks.set(xlabel=r"$t\,u_g/d$", ylabel=r"$v/u_g$", ylim=(0, 1.4))
     sinks.legend(fontsize=6, loc="lower right")
-    for case, marker in (("", "o"), ("-fine", "s"), ("-no-film", "x")):
+    for case, marker in (("", "o"), ("-fine", "s"), ("-light", "^"), ("-no-film", "x")):
         points = table.where("what", "rebound")
         points = points.only([(name.endswith(case) if case else name.count("-") == 1) for name in points["case"]])
         bounces.plot(points["x"], points["y"], ls="", marker=marker, ms=4, label=case.strip("-") or "film")
     stokes = np.geomspace(5, 1000, 100)
     bounces.plot(stokes, np.exp(-35 / stokes), color="k", lw=0.9, label="measured, fit")
     bounces.set(xscale="log", xlabel="St", ylabel="rebound over dry", ylim=(0, 1))
-    bounces.legend(fontsize=6)
+    bounces.legend(fontsize=5, loc="upper left", borderpad=0.2)
     for what, axes, colour in (("distance", kisses, style.BLUE), ("tilt", kisses.twinx(), style.VERMILLION)):
         curve = table.where("what", what).where("case", "resolved-tumbling")
         axes.plot(curve["x"], curve["y"], lw=0.9, color=colour)
