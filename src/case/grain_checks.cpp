@@ -269,7 +269,7 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
       "(docs/theory-grains.md)",
       n.d_max / n.d_min);
   // The neighbour search looks at the columns on either side, which must be three different ones.
-  const double reach = 3 * (n.d_max + c.grains->skin);
+  const double reach = 3 * (n.d_max + c.grains->skin + film_reach(c));
   found.error_if(
       (c.grains->boundary_z == GrainBoundaryZ::periodic && c.size[2] < reach) ||
           (is_periodic_x(c) && c.size[0] < reach),

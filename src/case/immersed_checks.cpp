@@ -1,6 +1,7 @@
 #include "src/case/immersed_checks.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "kernels/grains/sphere.hpp"
@@ -31,24 +32,37 @@ void check_immersed(const Config& c, Findings& found) {
   refuse(c.fluid->first_cell_height > 0, {"fluid.first_cell_height"}, "rows of different heights");
 }
 
-namespace {
-
-/// Checks the grain step against the thinnest film, whose damping is explicit.
-void check_film_step(const Config& c, const GrainNumbers& n, Findings& found) {
+double film_step_limit(const Config& c, const std::vector<SizeClass>& sizes) {
   const GrainsCase the_case = c;
   const LawTables laws = laws_of_pairs(the_case.grains, kinds_of(the_case.grains), the_case.film);
   const auto* films = std::get_if<LawTableOfMany<HertzLubricated>>(&laws);
-  if (films == nullptr) return;
-  double fastest = 0;  // rate at which a film stops two grains [1/s]
-  for (const KindNumbers& kind : n.kinds) {
-    const double r = kind.d_min / 2, m = kind.density * sphere_volume(r);
+  double limit = std::numeric_limits<double>::infinity();
+  if (films == nullptr) return limit;
+  const std::vector<KindConfig> kinds = all_kinds(*c.grains);
+  for (const SizeClass& size : sizes) {
+    const double r = size.diameter / 2;
+    const double m = kinds[static_cast<std::size_t>(size.kind)].density * sphere_volume(r);
     const ContactStiffness film = films->stiffness[0](r / 2, m / 2, -1e-12 * r);
-    fastest = std::max(fastest, film.gamma_n / (m / 2));
+    limit = std::min(limit, 0.5 * (m / 2) / film.gamma_n);
   }
-  found.error_if(true_grain_step(c.time) * fastest > 0.5,
+  return limit;
+}
+
+double film_reach(const Config& c) {
+  return c.grains->contact_model.is<HertzLubricated>() ? GrainsCase(c).film.reach : 0;
+}
+
+namespace {
+
+void check_film_step(const Config& c, const GrainNumbers& n, Findings& found) {
+  std::vector<SizeClass> smallest;
+  for (std::size_t k = 0; k < n.kinds.size(); ++k)
+    smallest.push_back({.diameter = n.kinds[k].d_min, .kind = static_cast<int>(k)});
+  const double limit = film_step_limit(c, smallest);
+  found.error_if(true_grain_step(c.time) > limit * (1 + 1e-9),
                  {"time.grain_step", "grains.contact_model", "fluid.kinematic_viscosity"},
                  "must be at most {:.3g} s: a thin film stops two grains in twice that time",
-                 0.5 / fastest);
+                 limit);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "kernels/grains/contact_law.hpp"
 #include "kernels/grains/step_limit.hpp"
 #include "src/case/derived.hpp"
+#include "src/case/immersed_checks.hpp"
 #include "src/fluid/mesh.hpp"
 #include "src/grains/kinds.hpp"
 
@@ -67,7 +68,7 @@ double grain_step_limit(const Config& config, const std::vector<SizeClass>& size
   double limit = kNoLimit;
   for (const SizeClass& size : sizes)
     limit = std::min(limit, limit_of(size, mean_diameter(sizes), config));
-  return limit;
+  return std::min(limit, film_step_limit(config, sizes));
 }
 
 /// Longest fluid step for the flow, and for grains that sink in it [s].

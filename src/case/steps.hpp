@@ -15,7 +15,7 @@ double chosen_fluid_step(const Config& config, const std::vector<SizeClass>& siz
 
 /// Longest grain step [s] that is 20 % of the Rayleigh time of the smallest grain, and stable below
 /// 15 layers (docs/theory-grains.md, "Stable grain step"). Linear springs take a tenth of the
-/// duration of a contact.
+/// duration of a contact. No step is longer than the thinnest film allows.
 double chosen_grain_step(const Config& config, const std::vector<SizeClass>& sizes);
 
 }  // namespace barchan

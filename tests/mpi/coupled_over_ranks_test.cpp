@@ -301,18 +301,18 @@ TEST(CoupledOverRanks, TwentyStepsWithAllArraysOfAGrainAsOnOneRank) {
 /// ends of it.
 Config immersed_case() {
   Config c = test::coupled_config();
-  c.size = {0.004, 0.003, 0.004};
+  c.size = {0.004, 0.005, 0.004};
   c.coupling.scheme = CouplingScheme::resolved;
   c.coupling.smoothing_length = 0;
-  c.fluid->cells = {24, 18, 24};
+  c.fluid->cells = {24, 30, 24};
   c.fluid->first_cell_height = 0;
   c.fluid->turbulence = Turbulence::none;
   c.fluid->kinematic_viscosity = 1e-5;
   c.grains->boundary_x = GrainBoundaryX::periodic;
   c.grains->sizes = {{.diameter = 1e-3, .count = 6}};
   c.initial.fluid = "still";
-  c.initial.pour->centre = {0.0039, 0.0021};
-  c.initial.pour->radius = 0.0011;
+  c.initial.pour->centre = {0.0027, 0.0014};
+  c.initial.pour->radius = 0.0013;
   c.time = {.end = 1, .fluid_step = 1e-4, .grain_step = 5e-6};
   return c;
 }
@@ -321,7 +321,7 @@ void push(const GrainState& grains) {
   const auto kin = grains.kin;
   Kokkos::parallel_for(
       "test: push", grains.n, KOKKOS_LAMBDA(int g) {
-        kin(g).u = {0.3, 0, -0.2};
+        kin(g).u = {0.5, 0, -0.5};
         kin(g).omega = {100, 50, 0};
       });
 }

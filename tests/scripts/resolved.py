@@ -49,6 +49,13 @@ def test(work):
                              ("fluid.first_cell_height", 1e-3, "rows of different heights"),
                              ("fluid.cells", "[40, 90, 40]", "within 10 %")):
         faults.expect(run(work / "refused", {**SMALL, key: value}), 2, word)
+    film = {**SMALL, "grains.contact_model": '"hertz_lubricated"', "time.end": 0.008, "time.grain_step": '"auto"'}
+    faults.expect(run(work / "film", film), 0)
+    faults.expect(run(work / "long", {**film, "time.grain_step": 4e-3}), 2, "a thin film stops two grains")
+    narrow = {**film, "domain.size": "[0.056, 0.16, 0.056]", "fluid.cells": "[24, 69, 24]",
+              "grains.sizes": "[[0.015, 1]]", "initial.grains.pour.centre": "[0.028, 0.028]"}
+    faults.expect(run(work / "narrow", narrow), 2, "its own image")
+    faults.expect(run(work / "no_film", {**narrow, "grains.contact_model": '"hertz_mindlin"'}), 0)
     faults.expect(run(work / "e4", {}, threads=2), 0)
     speed, of = largest_speed(work / "e4"), measured("E4")
     print(f"ten Cate E4: {speed:.4f} m/s, {100 * (speed / of - 1):+.2f} % of the measured")
