@@ -59,8 +59,8 @@ void add_kind(std::string& text, const KindNumbers& n) {
                                    ? fmt::format(", {:.2g} % in undamped impacts at {:.2g} m/s",
                                                  100 * n.at_impact, n.impact_speed)
                                    : "";
-    line(text, "overlap", "{}{:.2g} % under {} layers{} (docs/choosing.md)", of,
-         100 * n.at_rest, kLayersAtRest, impact);
+    line(text, "overlap", "{}{:.2g} % under {} layers{} (docs/choosing.md)", of, 100 * n.at_rest,
+         kLayersAtRest, impact);
   }
   if (n.fall_velocity > 0)
     line(text, "fall velocity", "{}{:.4g} m/s (mean grain alone)", of, n.fall_velocity);
