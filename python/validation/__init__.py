@@ -20,6 +20,7 @@ from validation import bed_load
 from validation import cfdem
 from validation import channel
 from validation import contacts
+from validation import dune_window
 from validation import flow
 from validation import laminar_bed
 from validation import resolved_bed
@@ -43,9 +44,10 @@ FIGURES = {
     laminar_bed.NAME: laminar_bed.draw,
     resolved_bed.NAME: resolved_bed.draw,
     resolved_spheres.NAME: resolved_spheres.draw,
+    dune_window.NAME: dune_window.draw,
 }
 STUDIES = {module.NAME: module
-           for module in (bed_load, threshold, laminar_bed, resolved_bed, resolved_spheres)}
+           for module in (bed_load, threshold, laminar_bed, resolved_bed, resolved_spheres, dune_window)}
 
 
 def parse(arguments):
