@@ -1,7 +1,7 @@
-"""dune_window: what grains of a dune feel, resolved and not, from the runs of configs/validation.
+"""dune_window: what grains of a dune feel, resolved and not, in windows cut out of it.
 
-resolved-window-study.toml has the resolved ones, resolved-window-dune.toml the others, with the forces of the paper and,
-as resolved-window-dune-complete, with all. `--keep` takes the folder of these runs, runs/validation.
+The runs are those of resolved-window-study.toml: places of a dune, resolved, and the same windows with the layered
+exchange, with the forces of the paper and with all. `--keep` takes their folder.
 
 Forces of the water along x and upwards, means over SPAN, are over the submerged weight of the mean grain. Grains nearer
 than two diameters to the sides of the window, which do not match, are left out. The depth of a grain counts from the
@@ -77,21 +77,26 @@ def rows_of(place, resolved, others):
             yield ",".join([place, str(i), f"{depth[n]:.3f}", *(f"{f[axis]:.4f}" for f in forces for axis in (0, 1))])
 
 
-def save(runs, folder):
+def finished(path):
+    return (path / "run.json").exists() and json.loads((path / "run.json").read_text())["status"] == "done"
+
+
+def save(study_path, folder):
     """Keeps a row for each grain as dune_window.csv; its path. Draws the flow at the crest, dune_window_crest.png."""
-    runs, lines = Path(runs), []
-    others = [Grains(runs / f"resolved-window-dune{kind}") for kind in ("", "-complete")]
+    study, lines, identity = Path(study_path), [], None
     for place in PLACES:
-        path = runs / "resolved-window-study" / place
-        if not (path / "run.json").exists() or json.loads((path / "run.json").read_text())["status"] != "done":
+        layered = [study / f"{'crest' if place == 'fine' else place}-{kind}" for kind in ("paper", "complete")]
+        if not all(finished(path) for path in (study / place, *layered)):
             continue
-        resolved = Grains(path)
-        lines += rows_of(place, resolved, others)
+        resolved, identity = Grains(study / place), json.loads((study / place / "run.json").read_text())
+        lines += rows_of(place, resolved, [Grains(path) for path in layered])
         if place == "crest":
             style.save(draw_flow(resolved), folder, "dune_window_crest", "Barchan, validation")
-    identity = json.loads((runs / "resolved-window-dune/run.json").read_text())
+    if identity is None:
+        raise MissingData(f"needs a window in {study} that is resolved and under both kinds of forces")
     tables.write(folder / f"{NAME}.csv", {
-        "title": "Forces on the grains of a dune", "command": "./barchan sweep resolved-window-study.toml",
+        "title": "Forces on the grains of a dune",
+        "command": "./barchan sweep configs/validation/resolved-window-study.toml",
         "commit": identity["git_hash"], "machine": f'{tables.machine()}; {identity["device"]}',
         "date": datetime.date.today().isoformat()}, [COLUMNS, *lines])
     return folder / f"{NAME}.csv"
