@@ -33,10 +33,12 @@ void check_immersed(const Config& c, Findings& found) {
 }
 
 double film_step_limit(const Config& c, const std::vector<SizeClass>& sizes) {
-  const GrainsCase the_case = c;
+  double limit = std::numeric_limits<double>::infinity();
+  if (!c.grains->contact_model.is<HertzLubricated>()) return limit;
+  GrainsCase the_case = c;
+  the_case.grains.pairs.clear();  // their contacts have the same film
   const LawTables laws = laws_of_pairs(the_case.grains, kinds_of(the_case.grains), the_case.film);
   const auto* films = std::get_if<LawTableOfMany<HertzLubricated>>(&laws);
-  double limit = std::numeric_limits<double>::infinity();
   if (films == nullptr) return limit;
   const std::vector<KindConfig> kinds = all_kinds(*c.grains);
   for (const SizeClass& size : sizes) {
