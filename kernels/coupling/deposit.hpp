@@ -47,7 +47,7 @@ struct ExchangeOfGrain {
 struct MarkColumns {
   GridRef grid;
   Kokkos::View<const GrainKinematics*> grains;
-  Real reach;               // largest distance of points from a centre [m]
+  Real reach;               // radius of the largest grain [m]
   Kokkos::View<int*> mark;  // i + nx_all k, then the rows up to the highest
 
   KOKKOS_FUNCTION void operator()(int g) const {
@@ -96,7 +96,7 @@ struct CellExchange {
   DepositStencil stencil;
 };
 
-/// Deposits the volume of grains in the cells of their points, and their exchange there
+/// Deposits the volume of grains in their cells, and their exchange there
 /// (CellExchange) or in the layers around them (LayerExchange). A work item is some grains that
 /// follow one another, one on a device.
 template <int grains_per_item, class Exchange>
@@ -123,7 +123,7 @@ struct DepositGrains {
     if constexpr (Exchange::layered)
       to_layers(g, rows, exchange.velocity(rows, grain), given.impulse, cache);
   }
-  /// Deposits by the shares of the points; with layers the volume alone.
+  /// Deposits by the shares of the cells; with layers the volume alone.
   KOKKOS_INLINE_FUNCTION void to_cells(const GrainCells& cells, const GrainExchange& given,
                                        Cache& cache) const {
     for (int q = 0; q < cells.n; ++q) {

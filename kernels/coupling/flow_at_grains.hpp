@@ -136,7 +136,7 @@ struct CellVectorRef {
   }
 };
 
-/// Means of cell densities, fluid fraction included, over a grain's points: the adjoint of the
+/// Means of cell densities, fluid fraction included, over a grain's cells: the adjoint of the
 /// deposit. The solid per fluid is that of the fullest of its cells, before the smoothing: as many
 /// grains as there are share the fluid.
 struct FlowOverCells {

@@ -6,12 +6,6 @@
 
 namespace barchan {
 
-/// Height of a point; one beyond the floor or the lid is mirrored back.
-KOKKOS_INLINE_FUNCTION Real mirrored_inside(const GridRef& grid, Real y) {
-  y = y < 0 ? -y : y;
-  return y > grid.ly ? 2 * grid.ly - y : y;
-}
-
 /// Share of a sphere below a plane, and its first moment about the centre over the radius.
 struct SphereBelow {
   Real share = 0, moment = 0;
@@ -44,8 +38,8 @@ struct GrainRows {
   KOKKOS_INLINE_FUNCTION GrainRows(const GridRef& grid, Real y, Real r) {
     const int own = grid.row_of(y), top = grid.ny - 1;
     const bool has_floor = own == 0, has_lid = own == top;
-    const Real half_height = r * kOuterShell;
-    if (y < half_height || y + half_height > grid.ly) find_outside(grid, y, r);
+    const Real reach = r * kOuterShell;
+    if (y < reach || y + reach > grid.ly) find_outside(grid, y, r);
     const Face lower = has_floor ? Face{} : face_at(grid, own, y, r);
     const Face upper = has_lid ? whole() : face_at(grid, own + 1, y, r);
     if ((own <= 1 || y - r >= grid.y_face(own - 1)) &&
@@ -112,15 +106,15 @@ struct GrainRows {
   /// last rows for which there is room have all that is left.
   KOKKOS_INLINE_FUNCTION void fill_many(const GridRef& grid, Real y, Real r, int own, Face lower,
                                         Face upper) {
-    constexpr int reach = kDividedOffsets / 2;
+    constexpr int most = kDividedOffsets / 2;  // on either side
     put(grid, own, y, r, lower, upper);
     for (int j = own - 1; j >= 0 && lower.below.share > 0; --j) {
-      const Face next = j == 0 || j == own - reach ? Face{} : face_at(grid, j, y, r);
+      const Face next = j == 0 || j == own - most ? Face{} : face_at(grid, j, y, r);
       put(grid, j, y, r, next, lower);
       lower = next;
     }
     for (int j = own + 1; j < grid.ny && upper.below.share < 1; ++j) {
-      const Face next = j == grid.ny - 1 || j == own + reach ? whole() : face_at(grid, j + 1, y, r);
+      const Face next = j == grid.ny - 1 || j == own + most ? whole() : face_at(grid, j + 1, y, r);
       put(grid, j, y, r, upper, next);
       upper = next;
     }

@@ -18,8 +18,8 @@ KOKKOS_FORCEINLINE_FUNCTION Real limited_slope(Real a, Real b) {
 /// docs/theory-coupling.md, "Interlayer drag",
 ///   sum over pairs of its rows a < j <= b of w_a w_b (b - a).
 /// It is at least as stiff as the drag itself (tests/physics/interlayer_drag_test.cpp). Its sum
-/// over all j is at most kDividedOffsets^2 / 4. Rows must be higher than a sixth of the grain: then
-/// each row between its ends holds a point.
+/// over all j is at most kDividedOffsets^2 / 4. A grain has at most
+/// kDividedOffsets rows.
 KOKKOS_INLINE_FUNCTION Real interlayer_drag_below(const GrainRows& rows, int j) {
   Real below = 0, above = 0, moment_below = 0, moment_above = 0;
   for (int q = 0; q < rows.n; ++q) {

@@ -23,8 +23,8 @@ KOKKOS_INLINE_FUNCTION Real viscosity_of_grains(Real phi) {
 /// stresslet of a sphere that follows its fluid.
 struct Stresslet {
   Real mu_f = 0;  // [Pa s]; 0: none
-  // Lower bound, over r, of the distance between the mean heights of the points in two rows of a
-  // grain.
+  // Lower bound, over r, of the distance between the mean heights of the parts of a grain in two
+  // rows.
   static constexpr Real kClosest = 0.5;
 
   /// Rate of the grain, at least `beta`, the rate of its drag. A grain at rest or in one row has

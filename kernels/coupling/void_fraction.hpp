@@ -67,9 +67,10 @@ struct GrainCells {
 /// equal shares, and one outside gives its to the grain's own cell, as CFDEM does.
 enum class PointModel { divided, centre, cfdem };
 
-/// Finds the cells of a grain. No volume is lost: a point beyond a wall is mirrored back, one
-/// beyond the outlet goes to the last cell, periodic directions wrap. Where the grid is cut among
-/// ranks, points of a grain inside may lie in the ghosts of the neighbours' cells.
+/// Finds the cells of a grain. No volume is lost: the rows beside floor and lid have what lies
+/// beyond them, a point beyond the outlet goes to the last cell, periodic directions wrap. Where
+/// the grid is cut among ranks, points of a grain inside may lie in the ghosts of the neighbours'
+/// cells.
 struct DepositStencil {
   GridRef grid;
   PointModel points = PointModel::divided;
@@ -89,20 +90,12 @@ struct DepositStencil {
   KOKKOS_INLINE_FUNCTION int column_z(Real z) const {
     return grid.cell_along(z, grid.dz) - grid.k_begin;
   }
-  /// Row of a height near a row; a point beyond a wall is mirrored back.
-  KOKKOS_INLINE_FUNCTION int row_of(Real y, int row_nearby) const {
-    return grid.row_near(mirrored_inside(grid, y), row_nearby);
-  }
   /// The owned or ghost cell of a column.
   KOKKOS_INLINE_FUNCTION int place_x(int column) const {
     return Kokkos::clamp(box.lx > 0 ? wrap(column, grid.nx) : column, i_low, i_high);
   }
   KOKKOS_INLINE_FUNCTION int place_z(int column) const {
     return Kokkos::clamp(box.lz > 0 ? wrap(column, grid.nz) : column, k_low, k_high);
-  }
-  /// The cell that holds a point not far from a row.
-  KOKKOS_INLINE_FUNCTION CellIndex cell_of(const Vec3& p, int row_nearby) const {
-    return {place_x(column_x(p.x)), row_of(p.y, row_nearby), place_z(column_z(p.z))};
   }
   KOKKOS_INLINE_FUNCTION GrainRows rows_of(const GrainKinematics& g) const {
     return {grid, g.x.y, g.r};

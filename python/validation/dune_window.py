@@ -19,7 +19,7 @@ from matplotlib.patches import Circle
 from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.io.run_folder import RunFolder
-from validation import tables
+from validation import planes, tables
 
 NAME = "dune_window"
 COLUMNS = "place,id,depth,resolved_x,resolved_y,paper_x,paper_y,complete_x,complete_y"
@@ -110,18 +110,12 @@ def draw_flow(grains):
     flow = run.flow_plane(frame, middle)
     figure = Figure(figsize=(style.FULL_WIDTH, 3.6), layout="constrained")
     axes = figure.subplots()
-    x, y = flow.x / d, flow.y / d
-    image = axes.pcolormesh(x, y, 1e3 * np.hypot(flow.u, flow.v), cmap=style.VELOCITY_MAP, shading="gouraud",
-                            rasterized=True)
-    even = np.linspace(x[0], x[-1], 161), np.linspace(y[0], y[-1], 91)
-    at = np.ix_(*(np.searchsorted(known, points).clip(0, len(known) - 1)
-                  for known, points in ((y, even[1]), (x, even[0]))))
-    axes.streamplot(*even, flow.u[at], flow.v[at], color="w", linewidth=0.4, density=2.2, arrowsize=0.5)
+    image = planes.draw(axes, flow.x / d, flow.y / d, 1e3 * flow.u, 1e3 * flow.v, points=(161, 91), density=2.2)
     off = grains.x[:, 2] - flow.z
     for n in np.flatnonzero(abs(off) < grains.d / 2):
         axes.add_patch(Circle(grains.x[n, :2] / d, np.sqrt(grains.d[n]**2 / 4 - off[n]**2) / d, fc=style.ORANGE, ec="k",
                               lw=0.5, zorder=5))
-    axes.set(aspect="equal", xlim=(0, x[-1]), ylim=(0, y[-1]), xlabel="$x/d$", ylabel="$y/d$")
+    axes.set_ylabel("$y/d$")
     figure.colorbar(image, ax=axes, pad=0.01).set_label("speed (mm/s)")
     return figure
 

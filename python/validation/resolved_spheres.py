@@ -17,7 +17,7 @@ from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.io.run_folder import RunFolder
 from barchan.io.tables import thin
-from validation import tables
+from validation import planes, tables
 
 NAME = "resolved_spheres"
 COLUMNS = "what,case,x,y"
@@ -122,16 +122,9 @@ def draw_pair(run, figure):
         seen = abs(flow.y / tracks.d - middle - 1.5) < 5
         u, v = flow.u[seen] / unit, flow.v[seen] / unit
         across, up = flow.x / tracks.d, flow.y[seen] / tracks.d
-        image = axes.pcolormesh(across, up, np.hypot(u, v), cmap=style.VELOCITY_MAP, vmin=0, vmax=0.55,
-                                shading="gouraud", rasterized=True)
-        even = np.linspace(across[0], across[-1], 61), np.linspace(up[0], up[-1], 101)
-        at = tuple(np.searchsorted(known, points).clip(0, len(known) - 1)
-                   for known, points in zip((across, up), even))
-        axes.streamplot(*even, u[np.ix_(at[1], at[0])], v[np.ix_(at[1], at[0])], color="w", linewidth=0.4,
-                        density=0.9, arrowsize=0.5)
+        image = planes.draw(axes, across, up, u, v, density=0.9, largest=0.55)
         for place, colour in zip(x / tracks.d, (style.VERMILLION, style.ORANGE)):
             axes.add_patch(Circle(place[:2], 0.5, fc=colour, ec="k", lw=0.6, zorder=5))
-        axes.set(aspect="equal", xlim=(0, across[-1]), ylim=(up[0], up[-1]), xlabel="$x/d$")
         axes.set_title(rf"$t$ = {time * unit / tracks.d:.1f} $\sqrt{{d/g}}$", pad=3)
     panels[0].set_ylabel("$y/d$")
     figure.colorbar(image, ax=panels, shrink=0.7, pad=0.02).set_label(r"speed over $\sqrt{g d}$")

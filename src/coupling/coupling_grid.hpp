@@ -40,7 +40,7 @@ struct CouplingGrid {
   PeriodicBox box;  // periods of the grains
   DepositStencil stencil;
   Real smoothing_length;  // [m]; 0: no smoothing
-  Real reach_of_grain;    // largest distance of a grain's points from its centre [m]
+  Real reach_of_grain;    // radius of the largest [m]
   EvenExtension walls;    // walls of the grains, where the smoothing ends
   Smoother smoother;
   const BodiesInFlow* bodies;  // nullptr without bodies
