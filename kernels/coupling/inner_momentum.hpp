@@ -162,7 +162,7 @@ struct SumOfLoads {
 
 /// Hands force and torque of the water over the last fluid step to the grain steps of the next one,
 /// with weight, buoyancy, and added mass and inertia: what force and torque of the water change
-/// with the acceleration of the grain.
+/// with the acceleration of the grain. Only contacts change it at once, so the mass is that there.
 struct ActOnGrains {
   SubmergedWeight weight;
   Kokkos::View<const GrainKinematics*> grains;
@@ -170,7 +170,7 @@ struct ActOnGrains {
   FluidOnGrains on_grains;
   KOKKOS_FUNCTION void operator()(int g) const {
     on_grains.explicit_force(g) = exchange.resolved_force(g) + weight(grains(g));
-    const Real added_mass = sphere_added_mass(weight.displaced, sphere_volume(grains(g).r));
+    const Real added_mass = kTouchingAddedMass * weight.displaced * sphere_volume(grains(g).r);
     on_grains.added_mass(g) = added_mass;
     on_grains.explicit_torque(g) =
         exchange.resolved_torque(g) +

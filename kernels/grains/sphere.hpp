@@ -18,11 +18,15 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr Real sphere_inertia(Real mass, Real radius
   return Real(0.4) * mass * radius * radius;
 }
 
+/// Added mass of a sphere that leaves a wall or an equal sphere which it touches, over the mass of
+/// the water that it displaces: (3 zeta(3) - 2)/2, by images in potential flow.
+inline constexpr Real kTouchingAddedMass = 0.803;
+
 /// Moment of inertia that a grain in a resolved flow turns in a step beside its own: that of the
-/// water which it displaces, of twice the added mass [kg m^2]. The shell of a cell's width that
-/// turns with the grain at once has about as much.
+/// water which it displaces [kg m^2]. The shell of a cell's width that turns with the grain at once
+/// has about as much.
 KOKKOS_FORCEINLINE_FUNCTION constexpr Real added_inertia(Real added_mass, Real radius) {
-  return sphere_inertia(2 * added_mass, radius);
+  return sphere_inertia(added_mass / kTouchingAddedMass, radius);
 }
 
 }  // namespace barchan

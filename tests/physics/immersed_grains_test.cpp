@@ -158,6 +158,37 @@ TEST(ImmersedGrains, FreeGrainInShearSpinsWithHalfTheRate) {
                   0.03);
 }
 
+/// Speed of a grain that leaves the floor at a gap, over that at which it came; water almost
+/// without friction.
+Real kept_speed(Real density) {
+  constexpr int cells = 12;  // a diameter
+  const Real h = kD / cells, speed = 0.1, gap = 0.1 * kD;
+  Config c = immersed_box({4 * cells, 3 * cells, 4 * cells}, h, density);
+  c.fluid->kinematic_viscosity = 1e-7;
+  c.grains->material.youngs_modulus = c.grains->wall.youngs_modulus = 1e9;
+  c.grains->material.restitution = c.grains->wall.restitution = 1;
+  c.time = {.fluid_step = 0.2 * h / speed, .grain_step = 0.002 * h / speed};
+  InitialGrains grains;
+  add_grain(grains, kD, {2.03 * kD, kD, 1.98 * kD}, {0, -speed, 0});
+  CoupledRun run(c, grains);
+  Real in = 0, out = 0;
+  for (int s = 0; s < 20 * cells && out == 0; ++s) {
+    const GrainRow before = run.rows()[1];
+    run.advance();
+    const GrainRow now = run.rows()[1];
+    const Real at = 0.5 * kD + gap;
+    if (before.x.y > at && now.x.y <= at) in = -now.u.y;
+    if (before.x.y < at && now.x.y >= at) out = now.u.y;
+  }
+  return out / in;
+}
+
+TEST(ImmersedGrains, GrainLeavesTheFloorWithTheWaterThatItTurnsRound) {
+  for (const auto& [ratio, tolerance] : {std::pair{2.5, 0.3}, std::pair{8.0, 0.15}})
+    expect_relative("speed after a contact, density ratio " + std::to_string(ratio),
+                    kept_speed(ratio * kRho), 1, tolerance);
+}
+
 /// Momentum of water and grains, and what grains will get of it in the next step [N s].
 Vec3 momentum(CoupledRun& run) {
   const GrainState& grains = *run.state.grains;
