@@ -6,8 +6,11 @@ Needs barchan and, of Debian, python3-numpy python3-matplotlib python3-pil pytho
 
     PYTHONPATH=python python3 docs/site/pictures.py runs/field/fed-dune fed
 
+    PYTHONPATH=python python3 docs/site/pictures.py runs/validation/resolved-load bed --every 1
+
 film: docs/site/barchan.mp4 and .png, docs/barchan.webp; grid: docs/barchan-10k.png; hero: docs/barchan.png; fed:
-docs/fed-dune-grains.svg, with runs/field/unfed-dune beside.
+docs/fed-dune-grains.svg, with runs/field/unfed-dune beside; bed: docs/site/resolved-bed.mp4 and .png, from the time
+on that fields.h5 begins to have a frame for every fourth of the grains.
 Lengths are in millimetres; x points along the flow, y upward, z across. In views from above x points to the right
 and z down the page, as in the figures of the program: the left horn is the upper one.
 """
@@ -24,7 +27,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 import barchan
-from barchan.figures import style
+from barchan.figures import grain_image, style
 from matplotlib.figure import Figure
 
 matplotlib.use("Agg")
@@ -35,6 +38,7 @@ FLOOR = np.array([0.925, 0.915, 0.895], np.float32)
 SANDS = np.array([[87, 70, 45], [83, 65, 40], [90, 75, 52], [80, 61, 36], [93, 80, 60], [77, 57, 34], [86, 69, 46],
                   [55, 36, 22]], np.float32) / 100  # fmt: skip
 DIAMETER, INK = 0.2, "#222222"
+BED_FIELDS = 41  # frames of the flow behind resolved grains
 
 
 class Window(NamedTuple):
@@ -250,10 +254,42 @@ def fed(run: barchan.Run) -> None:
         style.save(figure, DOCS, "fed-dune-grains", run.title, ("svg",))
 
 
+def bed(run: barchan.Run, work: Path, every: int) -> None:
+    """Film of resolved grains from the side: speed of the water in a plane at the back, and the grains before it."""
+    (frames := work / "bed").mkdir(parents=True, exist_ok=True)
+    length, height, _ = run.config["domain"]["size"]
+    fields, fastest, width = run.need_fields().times, run.config["fluid"]["top_velocity"] / 2, 720
+    times = [t for t in run.grain_times if fields[-BED_FIELDS:][0] <= t <= fields[-1]][::every]
+    for k, t in enumerate(times):
+        after = int(np.clip(np.searchsorted(fields, t), 1, len(fields) - 1))
+        flows = [run.flow_plane(frame, 0.0) for frame in (after - 1, after)]
+        part = (t - fields[after - 1]) / (fields[after] - fields[after - 1])
+        speed = sum(w * np.hypot(flow.u, flow.v) for w, flow in zip((1 - part, part), flows, strict=True))
+        g = run.grains(t=t)
+        x, d = np.stack([g["x"], g["z"], height - g["y"]], axis=1), np.asarray(g["d"], float)
+        x, d = np.concatenate([x, x + [length, 0, 0], x - [length, 0, 0]]), np.tile(d, 3)  # the box is periodic
+        window, pixel = (0.0, length, 0.0, height), length / width / 2
+        who, top = grain_image.depth_buffer(x, d, window, pixel)
+        rows = (height - (np.arange(who.shape[0]) + 0.5) * pixel, (np.arange(who.shape[1]) + 0.5) * pixel)
+        water = np.apply_along_axis(lambda line: np.interp(rows[1], flows[0].x, line), 1, speed)
+        water = np.apply_along_axis(lambda line: np.interp(rows[0], flows[0].y, line), 0, water)
+        picture = plt.get_cmap(style.VELOCITY_MAP)(np.clip(water / fastest, 0, 1))[..., :3]
+        colour = SANDS[np.arange(len(d)) % (len(d) // 3) * 7919 % 8]
+        seen = who >= 0
+        picture[seen] = colour[who[seen]] * grain_image.shade(who, top, x, d, window, pixel)[:, None]
+        small = grain_image.block_mean(picture, 2)
+        Image.fromarray((255 * small[: len(small) // 2 * 2]).astype(np.uint8)).save(frames / f"{k:04d}.png")
+    call = f"ffmpeg -y -loglevel error -framerate 20 -i {frames}/%04d.png -c:v libx264 -preset veryslow -crf 30"
+    subprocess.run([*call.split(), *f"-pix_fmt yuv420p -movflags +faststart {DOCS}/site/resolved-bed.mp4".split()],
+                   check=True)
+    poster = Image.open(frames / f"{len(times) // 2:04d}.png")
+    poster.quantize(200, dither=Image.Dither.NONE).save(DOCS / "site" / "resolved-bed.png", optimize=True)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run")
-    parser.add_argument("pictures", nargs="*", help="film, grid, hero (if none is named), fed")
+    parser.add_argument("pictures", nargs="*", help="film, grid, hero (if none is named), fed, bed")
     parser.add_argument("--time", type=float, default=9.36, help="time of the still and of the poster in s")
     parser.add_argument("--times", type=float, nargs=6, default=[0, 2, 4, 6, 8, 9.4], help="times of the six views")
     parser.add_argument("--every", type=int, default=3, help="step between the frames of the film")
@@ -261,7 +297,7 @@ def main() -> None:
     o = parser.parse_args()
     run, wanted = barchan.Run(o.run), o.pictures or ["film", "grid", "hero"]
     calls = {"hero": (hero, o.work, o.time), "grid": (grid, o.times), "film": (film, o.work, o.time, o.every),
-             "fed": (fed,)}
+             "fed": (fed,), "bed": (bed, o.work, o.every)}
     for call, *values in (calls[name] for name in wanted):
         call(run, *values)
 

@@ -24,6 +24,7 @@ from validation import dune_window
 from validation import flow
 from validation import laminar_bed
 from validation import resolved_bed
+from validation import resolved_load
 from validation import resolved_spheres
 from validation import threshold
 from validation import water
@@ -43,11 +44,12 @@ FIGURES = {
     threshold.NAME: threshold.draw,
     laminar_bed.NAME: laminar_bed.draw,
     resolved_bed.NAME: resolved_bed.draw,
+    resolved_load.NAME: resolved_load.draw,
     resolved_spheres.NAME: resolved_spheres.draw,
     dune_window.NAME: dune_window.draw,
 }
 STUDIES = {module.NAME: module
-           for module in (bed_load, threshold, laminar_bed, resolved_bed, resolved_spheres, dune_window)}
+           for module in (bed_load, threshold, laminar_bed, resolved_bed, resolved_load, resolved_spheres, dune_window)}
 
 
 def parse(arguments):

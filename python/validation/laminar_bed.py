@@ -75,6 +75,12 @@ def surface(fraction, levels):
     return middles[top] + rest * (middles[top + 1] - middles[top])
 
 
+def surface_of(frames, scales):
+    """The same [m] of the mean over frames."""
+    levels = np.arange(0, scales.height + scales.size / LEVELS, scales.size / LEVELS)
+    return surface(np.mean([solid_fraction(grains, scales.area, levels) for grains in frames], axis=0), levels)
+
+
 def velocity_flux(grains, bed, thickness):
     """Integral of the mean velocity along x [m2/s] over layers of `thickness`, counted down from the bed's surface."""
     layer = np.floor((bed - grains.x[:, 1]) / thickness).astype(int)
@@ -96,9 +102,7 @@ def measure(run):
     frames = [run.frame(index) for index in np.flatnonzero(run.need_grains().times > end / 2)]
     if len(frames) < BLOCKS or frames[0].u is None:
         raise MissingData(f"needs {BLOCKS} frames of grains with velocities in the second half of {run.path}")
-    levels = np.arange(0, scales.height + scales.size / LEVELS, scales.size / LEVELS)
-    fraction = np.mean([solid_fraction(grains, scales.area, levels) for grains in frames], axis=0)
-    bed = surface(fraction, levels)
+    bed = surface_of(frames, scales)
     late = history["t"] > end / 2
     fluid_flux = scales.fluid_flux(config["fluid"]["mean_velocity"])
     reynolds, fluid_height = fluid_flux / scales.viscosity, scales.height - bed

@@ -19,6 +19,7 @@ void check_immersed(const Config& c, Findings& found) {
   };
   refuse(!c.bodies.empty(), {"body"}, "bodies");
   refuse(grains.feed.has_value(), {"grains.feed.amount"}, "grains that come in");
+  refuse(grains.floor == GrainFloor::glued, {"grains.floor"}, "a glued floor");
   refuse(grains.boundary_x != GrainBoundaryX::periodic, {"grains.boundary_x"},
          "a boundary_x other than \"periodic\"");
   refuse(grains.boundary_z != GrainBoundaryZ::periodic, {"grains.boundary_z"},

@@ -158,6 +158,28 @@ TEST(ImmersedGrains, FreeGrainInShearSpinsWithHalfTheRate) {
                   0.03);
 }
 
+// O'Neill, Chem. Eng. Sci. 23, 1293 (1968): a sphere that touches a wall in slow shear. The lid is
+// two diameters up; the next spheres are four diameters away, which adds some 3 %.
+TEST(ImmersedGrains, GrainOnTheFloorHasONeillsDragAndTorque) {
+  constexpr int cells = 16;
+  constexpr Real h = kD / 8, r = kD / 2, speed = 1e-3, rate = speed / (cells * h);
+  Config c = immersed_box({2 * cells, cells, 2 * cells}, h, kHeld);
+  c.fluid->bottom = c.fluid->top = WallFlow::no_slip;
+  c.fluid->top_velocity = speed;
+  InitialGrains grains;
+  add_grain(grains, kD, {cells * h + 0.3 * h, r, cells * h - 0.2 * h});
+  CoupledRun run(c, grains);
+  set_faces(run.state.fluid->u, run.state.fluid->grid,
+            [&](std::size_t axis, Real, Real y, Real) { return axis == 0 ? rate * y : 0; });
+  run.fill_ghosts();
+  run.advance(static_cast<int>(6 * r * r / (kNu * run.step.dt())));
+  const Real mu = kNu * kRho;
+  expect_relative("drag of a grain on the floor", force_on_first(run, "force_flow").x,
+                  1.7009 * 6 * pi * mu * r * r * rate, 0.08);
+  expect_relative("torque of a grain on the floor", -force_on_first(run, "torque_flow").z,
+                  0.944 * 4 * pi * mu * r * r * r * rate, 0.08);
+}
+
 /// Speed of a grain that leaves the floor at a gap, over that at which it came; water almost
 /// without friction.
 Real kept_speed(Real density) {

@@ -189,3 +189,13 @@ def test_a_netcdf_file_has_it_all(run, tmp_path):
     assert {"x_bnds", "y_bnds", "z_bnds"} <= set(again.coords)
     assert np.array_equal(again.time, run.field_times[:2]) and again.y.attrs["axis"] == "Z"
     assert np.array_equal(again.u, run.fields.u[:2, :3])
+
+
+def test_a_plane_ends_with_the_speed_of_floor_and_lid(run, tmp_path):
+    shutil.copy(run.path / "fields.h5", tmp_path)
+    config = (run.path / "config.toml").read_text()
+    for top, speed in (("\"free_slip\"", None), ("\"no_slip\"", 0.0), ("\"no_slip\"\ntop_velocity = 0.3", 0.3)):
+        (tmp_path / "config.toml").write_text(config + f"[fluid]\ntop = {top}\n")
+        flow = barchan.Run(tmp_path).flow_plane(0, 0.0)
+        assert np.all(flow.u[0] == 0) and np.all(flow.v[[0, -1]] == 0)
+        assert np.all(flow.u[-1] == (flow.u[-2] if speed is None else speed))

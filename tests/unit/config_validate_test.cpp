@@ -99,6 +99,9 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
        "--set coupling.scheme = \"resolved\": must come with grains.frozen = true where a case has "
        "a "
        "boundary_x other than \"periodic\""},
+      {both + "[coupling]\nscheme = \"resolved\"\n", "grains.floor=glued",
+       "--set grains.floor = \"glued\": must come with grains.frozen = true where a case has a "
+       "glued floor"},
       {both + "[coupling]\nscheme = \"resolved\"\n", "coupling.drag=none",
        "--set coupling.drag = \"none\": must be absent with scheme = \"resolved\""},
       {both, "coupling.centred.void_fraction=centre",

@@ -226,10 +226,11 @@ class RunFolder:
             u, v, alpha_f = (np.pad(group[key][k, :, :], 1, mode="edge")
                              for key in ("u", "v", "alpha_f"))
         walls = self.config.get("fluid", {})
-        for row, wall, usual in ((0, "bottom", "no_slip"), (-1, "top", "free_slip")):
+        for row, wall, usual, speed in ((0, "bottom", "no_slip", 0.0),
+                                        (-1, "top", "free_slip", walls.get("top_velocity", 0.0))):
             v[row] = 0.0
             if walls.get(wall, usual) == "no_slip":
-                u[row] = 0.0
+                u[row] = speed
         x, y = (np.concatenate([grid[f"{a}_face"][:1], grid[a], grid[f"{a}_face"][-1:]])
                 for a in ("x", "y"))
         return Flow(time, float(grid["z"][k]), x, y, u, v, alpha_f)
