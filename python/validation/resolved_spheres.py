@@ -150,7 +150,7 @@ def draw(folder):
         sinks.plot(20.5, expected, marker="o", ms=4, mfc="none", color=line.get_color())
     sinks.set(xlabel=r"$t\,u_g/d$", ylabel=r"$v/u_g$", ylim=(0, 1.4))
     sinks.legend(fontsize=6, loc="lower right")
-    for case, marker in (("", "o"), ("-fine", "s"), ("-light", "^"), ("-no-film", "x")):
+    for case, marker in (("", "o"), ("-fine", "s"), ("-light", "^"), ("-no-film", "x"), ("-smooth", "v")):
         points = table.where("what", "rebound")
         points = points.only([(name.endswith(case) if case else name.count("-") == 1) for name in points["case"]])
         bounces.plot(points["x"], points["y"], ls="", marker=marker, ms=4, label=case.strip("-") or "film")

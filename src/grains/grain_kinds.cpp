@@ -9,9 +9,6 @@ namespace barchan {
 
 namespace {
 
-// Thinnest film between a sphere and its image or a plane, over its radius; Biegert et al. (2017).
-constexpr Real kThinnestFilm = 3e-3;
-
 /// `radius`: of a grain over the effective one, 2 between equal grains, 1 at a wall.
 ContactMaterial contact_material(const GrainConfig& config, const Film& film, Real radius,
                                  const Material& a, const Material& b, const Material& contact) {
@@ -22,7 +19,7 @@ ContactMaterial contact_material(const GrainConfig& config, const Film& film, Re
           .tangential_damping = config.tangential_damping,
           .film_viscosity = film.viscosity,
           .film_reach = film.reach,
-          .thinnest_film = kThinnestFilm * radius};
+          .thinnest_film = config.thinnest_film * radius};
 }
 
 Friction friction_of(const Material& m, CoulombLimit limit) {

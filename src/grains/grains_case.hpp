@@ -83,6 +83,7 @@ struct GrainConfig {
   double rolling_theta_m = 0.1;  // [rad], angle of incipient rolling of the theta_m model (A13)
   ContactModel contact_model = ContactModel::of<HertzMindlin>();
   double tangential_damping = 1;  // factor on the dashpots along contacts
+  double thinnest_film = 3e-3;    // over the radius; contact_model = "hertz_lubricated" only
   double linear_stiffness = 0;    // [N/m], contact_model = "linear" only, then required
   std::vector<SizeClass> sizes;   // for `pour`; otherwise the initial file decides
   bool frozen = false;

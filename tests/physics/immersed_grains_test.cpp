@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "src/case/immersed_checks.hpp"
 #include "tests/support/lattice.hpp"
 #include "tests/support/measured.hpp"
 
@@ -278,6 +279,21 @@ TEST(Lubrication, FilmSlowsAnApproachAsItsIntegral) {
   EXPECT_GT(gap, 0);
   expect_relative("speed that the film takes", v_0 - v, slower, 1e-3);
   EXPECT_EQ(rows[1].omega.z, 0);
+}
+
+/// The film of two equal grains that nearly touch, 6 pi mu R_eff^2 (1/gap - 1/reach), as the
+/// longest grain step has it: half of m_eff over it.
+TEST(Lubrication, ThinnestFilmIsThatOfTheCase) {
+  Config c = immersed_box({32, 32, 32}, kD / 8, 2500);
+  c.grains->contact_model = ContactModel::of<HertzLubricated>();
+  const Real r_eff = kD / 4, m_eff = 2500 * volume_of(kD) / 2, reach = 2 * kD / 8;
+  for (const Real thinnest : {3e-3, 3e-4}) {
+    c.grains->thinnest_film = thinnest;
+    const Real gap = thinnest * kD / 2;
+    const Real film = film_damping(kRho * kNu, r_eff, gap) - film_damping(kRho * kNu, r_eff, reach);
+    expect_relative("longest step with a film", film_step_limit(c, {{.diameter = kD}}),
+                    0.5 * m_eff / film, 1e-6);
+  }
 }
 
 TEST(Lubrication, LawIsThatOfTheFilmThenOfTheContact) {

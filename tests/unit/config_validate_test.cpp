@@ -95,6 +95,8 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
       {grains, "grains.contact_model=linear",
        "case.toml:8: [grains] linear_stiffness: must be above 0 with contact_model"},
       {grains, "grains.linear_stiffness=10", "must be absent unless contact_model"},
+      {grains, "grains.thinnest_film=1e-3",
+       "must be absent unless contact_model = \"hertz_lubricated\""},
       {both, "coupling.scheme=resolved",
        "--set coupling.scheme = \"resolved\": must come with grains.frozen = true where a case has "
        "a "
