@@ -56,12 +56,14 @@ void check_flow_step(const Config& c, const FluidNumbers& n, Findings& found) {
               fmt::format("gives a CFL number of {:.2f} for the mean flow alone; fluctuations come "
                           "on top, keep below 0.5",
                           n.cfl));
-  found.limit(n.viscous_number, 0.5, 1,
+  const bool only_molecular = c.fluid->turbulence == Turbulence::none &&
+                              (!c.grains || c.coupling.scheme == CouplingScheme::resolved);
+  found.limit(n.viscous_number, only_molecular ? 1 : 0.5, 1,
               {"time.fluid_step", "fluid.cells", "fluid.kinematic_viscosity", "domain.size"},
               fmt::format("must be at most {:.3g} s: viscosity is explicit and the smallest cell "
                           "sets the limit",
                           c.time.fluid_step / n.viscous_number),
-              "is over half of the viscous limit; eddy viscosity comes on top");
+              "is over half of the viscous limit; the viscosity of eddies or grains comes on top");
 }
 
 /// Checks the rows; true if they cannot fill the height.

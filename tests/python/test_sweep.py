@@ -72,6 +72,16 @@ def test_folders_with_anything_in_them(study, tmp_path, file, text, capsys):
     assert status_of(tmp_path, "one") == "done"
 
 
+def test_what_a_case_starts_from_leaves_the_threads_of_running_cases_alone(study, tmp_path):
+    """The first case runs until the second one's start has begun: that has half of the threads."""
+    waits = '[ "$(wc -l < "$here/starts")" = 2 ] || sleep 0.01; [ "$(wc -l < "$here/starts")" = 2 ]'
+    says = '*--starts-only*) echo "$OMP_NUM_THREADS $OMP_PROC_BIND" >> "$here/starts"; exit ;;'
+    (tmp_path / "program").write_text(PROGRAM.replace("*--starts-only*) exit ;;", says).replace(
+        "while [", f"until {waits}; do :; done\nwhile [", 1))
+    assert study(more="at_once = 2\nthreads = 3") == 0
+    assert (tmp_path / "starts").read_text().splitlines() == ["6 false", "3 false"]
+
+
 def test_a_name_that_no_folder_can_have(study, tmp_path, capsys):
     assert study("one", 300 * "x") == 2
     assert f"a case has a name of 300 letters, of at most 200 ({30 * 'x'}...): give" in capsys.readouterr().err

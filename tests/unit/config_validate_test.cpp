@@ -213,6 +213,13 @@ TEST(ConfigValidate, WarnsOfWhatWillDisappoint) {
   EXPECT_TRUE(says(warnings(fluid, {"fluid.cells=[30, 4, 8]"}), "has 4 rows over a no-slip floor"));
   EXPECT_TRUE(says(warnings(fluid_case("mean_velocity = 0.2\n")), "begins without turbulence"));
   EXPECT_EQ(warnings(fluid_case("mean_velocity = 0.2\n"), {"initial.fluid=turbulent"}), Lines{});
+  const Lines slow{"initial.fluid=turbulent", "fluid.kinematic_viscosity=3e-4",
+                   "time.fluid_step=2.5e-4"};
+  EXPECT_TRUE(
+      says(warnings(fluid_case("mean_velocity = 0.2\n"), slow), "half of the viscous limit"));
+  const Lines laminar{"fluid.turbulence=none", "fluid.kinematic_viscosity=3e-4",
+                      "time.fluid_step=2.5e-4"};
+  EXPECT_FALSE(says(warnings(fluid_case("mean_velocity = 0.2\n"), laminar), "viscous limit"));
   EXPECT_TRUE(says(warnings(both, {"coupling.forces=[]"}), "the flow does not move the grains"));
   EXPECT_TRUE(
       says(warnings(both, {"grains.density=900", "time.grain_step=1e-6"}), "the grains float"));

@@ -121,7 +121,7 @@ class Running:
             command += ["--restart", str(restart)]
         elif overwrite:
             command.append("--overwrite")
-        environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "OMP_PROC_BIND": "false"}
+        environment = with_threads(threads)
         with appending(self.folder / "sweep.txt") as log:
             # A group of its own: a Ctrl-C reaches it once, through us.
             self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
@@ -212,10 +212,10 @@ class Sweep:
         if restart is None:
             command = [self.program, "run", str(self.study.base), *case.set_options(), "--out", str(folder),
                        "--quiet", "--starts-only"]
-            threads = os.environ.get("OMP_NUM_THREADS", str(self.study.threads * self.study.at_once))
+            threads = self.study.threads * (self.study.at_once - len(self.running))  # those of no case
             with appending(folder / "sweep.txt") as log:
                 starts = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                          env={**os.environ, "OMP_NUM_THREADS": threads},
+                                          env=with_threads(threads),
                                           start_new_session=True, preexec_fn=end_with_parent)
             while starts.poll() is None:
                 if self.stopping:
@@ -273,6 +273,11 @@ class Sweep:
             return "running"
         what, _ = self.state(case)
         return {"done": "done", "continue": "unfinished", "new": "waiting"}[what]
+
+
+def with_threads(count):
+    """The environment of a program with so many threads, which may run beside others."""
+    return {**os.environ, "OMP_NUM_THREADS": str(count), "OMP_PROC_BIND": "false"}
 
 
 def draw_figures(folder):
