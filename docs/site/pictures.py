@@ -255,25 +255,26 @@ def fed(run: barchan.Run) -> None:
 
 
 def bed(run: barchan.Run, work: Path, every: int) -> None:
-    """Film of resolved grains from the side: speed of the water in a plane at the back, and the grains before it."""
+    """Film of resolved grains from the side; the water behind is blue where it is slower than its row, red: faster."""
     (frames := work / "bed").mkdir(parents=True, exist_ok=True)
-    length, height, _ = run.config["domain"]["size"]
-    fields, fastest, width = run.need_fields().times, run.config["fluid"]["top_velocity"] / 2, 720
+    (length, height, _), seen_part = run.config["domain"]["size"], 0.75
+    fields, largest, width = run.need_fields().times, run.config["fluid"]["top_velocity"] / 25, 720
     times = [t for t in run.grain_times if fields[-BED_FIELDS:][0] <= t <= fields[-1]][::every]
     for k, t in enumerate(times):
         after = int(np.clip(np.searchsorted(fields, t), 1, len(fields) - 1))
         flows = [run.flow_plane(frame, 0.0) for frame in (after - 1, after)]
         part = (t - fields[after - 1]) / (fields[after] - fields[after - 1])
-        speed = sum(w * np.hypot(flow.u, flow.v) for w, flow in zip((1 - part, part), flows, strict=True))
+        u = sum(w * flow.u for w, flow in zip((1 - part, part), flows, strict=True))
+        u -= u.mean(axis=1, keepdims=True)
         g = run.grains(t=t)
         x, d = np.stack([g["x"], g["z"], height - g["y"]], axis=1), np.asarray(g["d"], float)
         x, d = np.concatenate([x, x + [length, 0, 0], x - [length, 0, 0]]), np.tile(d, 3)  # the box is periodic
-        window, pixel = (0.0, length, 0.0, height), length / width / 2
+        window, pixel = (0.0, length, (1 - seen_part) * height, height), length / width / 2
         who, top = grain_image.depth_buffer(x, d, window, pixel)
-        rows = (height - (np.arange(who.shape[0]) + 0.5) * pixel, (np.arange(who.shape[1]) + 0.5) * pixel)
-        water = np.apply_along_axis(lambda line: np.interp(rows[1], flows[0].x, line), 1, speed)
-        water = np.apply_along_axis(lambda line: np.interp(rows[0], flows[0].y, line), 0, water)
-        picture = plt.get_cmap(style.VELOCITY_MAP)(np.clip(water / fastest, 0, 1))[..., :3]
+        down, along = ((np.arange(n) + 0.5) * pixel for n in who.shape)
+        water = np.apply_along_axis(lambda line: np.interp(along, flows[0].x, line), 1, u)
+        water = np.apply_along_axis(lambda line: np.interp(seen_part * height - down, flows[0].y, line), 0, water)
+        picture = plt.get_cmap("RdBu_r")(0.5 + 0.5 * water / largest)[..., :3]
         colour = SANDS[np.arange(len(d)) % (len(d) // 3) * 7919 % 8]
         seen = who >= 0
         picture[seen] = colour[who[seen]] * grain_image.shade(who, top, x, d, window, pixel)[:, None]

@@ -60,7 +60,7 @@ def measure(run):
     water = bulk * of_bed.height if resolved else of_bed.fluid_flux(bulk)
     bed = laminar_bed.surface_of(frames, of_bed)
     shields = stress / scales.stress if run.config["fluid"].get("top_velocity") else of_bed.shields(
-        water / of_bed.viscosity, (of_bed.height - bed) / scales.d)
+        water / of_bed.viscosity, of_bed.height - bed)
     carried = [flux(*(np.asarray(part, float) for part in (one.x, one.u, one.d)), scales) for one in frames]
     moving, speed = np.mean([movers(one.u, scales) for one in frames], axis=0)
     by_velocity = np.mean([laminar_bed.velocity_flux(one, bed, scales.d / 2) for one in frames])
@@ -114,9 +114,9 @@ def draw(folder):
         panels[0].errorbar(rows["shields"], rows["q_star"], yerr=rows["deviation"], capsize=2, **look)
         panels[1].plot(rows["shields"], rows["moving"], **look)
         panels[2].plot(rows["shields"], rows["speed"], **look)
-    panels[0].set(yscale="log", ylabel="$q*$")
+    panels[0].set(yscale="log", ylim=(3e-4, 1), ylabel="$q*$")
     panels[1].set(ylabel="moving grains on $d^2$")
-    panels[2].set(ylabel=r"their speed over $\sqrt{(s-1) g d}$", ylim=(0, None))
+    panels[2].set(ylabel=r"speed over $\sqrt{(s-1) g d}$", ylim=(0, None))
     panels[0].axvspan(*(bed_load.LAMINAR_THRESHOLD[0] + sign * bed_load.LAMINAR_THRESHOLD[1] for sign in (-1, 1)),
                       color="0.9")
     panels[0].legend(fontsize=6)

@@ -52,6 +52,11 @@ def test_rows_are_the_second_half_of_a_run():
     assert (shields, deviation) == pytest.approx((0.2, 0), abs=1e-12)
     assert q_star == pytest.approx(resolved_load.flux(*vars(bed(0.0551)).values(), scales()))
     assert ratio == pytest.approx(D / 2 * 1e-3 / (0.1 * 10 * D))  # the lone grain lies above the bed's surface
+    config = CONFIG | {"fluid": CONFIG["fluid"] | {"top_velocity": 0.0}}
+    of_channel = types.SimpleNamespace(**{**vars(run), "config": config})
+    bed_top, reynolds = 9.02 * D, 0.1 * 10 * D / 1e-6  # clear water from half a level above the layer on
+    expected = 6 * reynolds / (1.5 * 9.81 * D**3 / 1e-12) * (D / bed_top)**2
+    assert resolved_load.measure(of_channel)[1] == pytest.approx(expected, rel=0.01)
     run.grain_file.times = times[:6]
     with pytest.raises(MissingData, match="second half"):
         resolved_load.measure(run)
