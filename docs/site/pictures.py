@@ -6,11 +6,13 @@ Needs barchan and, of Debian, python3-numpy python3-matplotlib python3-pil pytho
 
     PYTHONPATH=python python3 docs/site/pictures.py runs/field/fed-dune fed
 
-    PYTHONPATH=python python3 docs/site/pictures.py runs/validation/resolved-load bed --every 1
+    ./barchan run configs/validation/resolved-load.toml --out runs/film --set time.end=0.34096 \\
+        --set output.grains_interval=2.56e-4 --set output.fields_interval=1.024e-3
+    PYTHONPATH=python python3 docs/site/pictures.py runs/film bed --every 1
 
 film: docs/site/barchan.mp4 and .png, docs/barchan.webp; grid: docs/barchan-10k.png; hero: docs/barchan.png; fed:
-docs/fed-dune-grains.svg, with runs/field/unfed-dune beside; bed: docs/site/resolved-bed.mp4 and .png, from the time
-on that fields.h5 begins to have a frame for every fourth of the grains.
+docs/fed-dune-grains.svg, with runs/field/unfed-dune beside; bed: docs/site/resolved-bed.mp4 and .png, the last
+40 intervals of the fields.
 Lengths are in millimetres; x points along the flow, y upward, z across. In views from above x points to the right
 and z down the page, as in the figures of the program: the left horn is the upper one.
 """

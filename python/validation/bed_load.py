@@ -6,7 +6,6 @@ to sand of 0.2 to 2 mm, with the threshold of Soulsby & Whitehouse (1997). In la
 s = 0.12 +- 0.03: Ouriemi et al., Phys. Fluids 19, 061706 (2007).
 """
 
-import datetime
 import json
 from dataclasses import dataclass
 
@@ -83,8 +82,7 @@ def finished(study_path):
 def notes(study, config, run):
     """What a table of the runs of a study says of itself."""
     identity = json.loads((run.path / "run.json").read_text())
-    return {"title": study.title, "command": f"./barchan sweep {config}", "commit": identity["git_hash"],
-            "machine": f'{tables.machine()}; {identity["device"]}', "date": datetime.date.today().isoformat()}
+    return tables.about(study.title, f"./barchan sweep {config}", identity)
 
 
 def as_row(values):

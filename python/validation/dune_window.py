@@ -8,7 +8,6 @@ than two diameters to the sides of the window, which do not match, are left out.
 highest top within d along the floor to its own.
 """
 
-import datetime
 import json
 from pathlib import Path
 
@@ -94,11 +93,9 @@ def save(study_path, folder):
             style.save(draw_flow(resolved), folder, "dune_window_crest", "Barchan, validation")
     if identity is None:
         raise MissingData(f"needs a window in {study} that is resolved and under both kinds of forces")
-    tables.write(folder / f"{NAME}.csv", {
-        "title": "Forces on the grains of a dune",
-        "command": "./barchan sweep configs/validation/resolved-window-study.toml",
-        "commit": identity["git_hash"], "machine": f'{tables.machine()}; {identity["device"]}',
-        "date": datetime.date.today().isoformat()}, [COLUMNS, *lines])
+    command = "./barchan sweep configs/validation/resolved-window-study.toml"
+    said = tables.about("Forces on the grains of a dune", command, identity)
+    tables.write(folder / f"{NAME}.csv", said, [COLUMNS, *lines])
     return folder / f"{NAME}.csv"
 
 

@@ -76,7 +76,7 @@ def surface(fraction, levels):
 
 
 def surface_of(frames, scales):
-    """The same [m] of the mean over frames."""
+    """Height [m] of this surface, of the mean fraction over frames."""
     levels = np.arange(0, scales.height + scales.size / LEVELS, scales.size / LEVELS)
     return surface(np.mean([solid_fraction(grains, scales.area, levels) for grains in frames], axis=0), levels)
 

@@ -6,7 +6,6 @@ all grains, else that of laminar_bed, as is q_v/q_f. q* = q / sqrt((s - 1) g d^3
 lowest layer carries, which slides on the smooth floor. A grain moves when it is faster than a tenth of sqrt((s - 1) g d).
 """
 
-import datetime
 import json
 from pathlib import Path
 
@@ -83,11 +82,9 @@ def save(runs, folder):
         identity = json.loads((run.path / "run.json").read_text())
     if identity is None:
         raise MissingData(f"needs a finished run of resolved-load-study or resolved-laminar in {runs}")
-    tables.write(folder / f"{NAME}.csv", {
-        "title": "Bed load with every grain resolved",
-        "command": "./barchan sweep configs/validation/resolved-load-study.toml (and the cases resolved-laminar*)",
-        "commit": identity["git_hash"], "machine": f'{tables.machine()}; {identity["device"]}',
-        "date": datetime.date.today().isoformat()}, [COLUMNS, *rows])
+    command = "./barchan sweep configs/validation/resolved-load-study.toml (and the cases resolved-laminar*)"
+    said = tables.about("Bed load with every grain resolved", command, identity)
+    tables.write(folder / f"{NAME}.csv", said, [COLUMNS, *rows])
     return folder / f"{NAME}.csv"
 
 

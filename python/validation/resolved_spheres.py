@@ -5,7 +5,6 @@ Lengths are in diameters. A rebound is the speed upwards at a gap of 0.1 d over 
 restitution without water; 0: the sphere does not come so high.
 """
 
-import datetime
 import json
 from pathlib import Path
 
@@ -95,9 +94,7 @@ def save(runs, folder):
             run, identity = RunFolder(file.parent), json.loads((file.parent / "run.json").read_text())
             if identity["status"] != "done":
                 continue
-            about = {"title": "Spheres in a resolved flow", "command": "./barchan sweep (the studies resolved-*)",
-                     "commit": identity["git_hash"], "machine": f'{tables.machine()}; {identity["device"]}',
-                     "date": datetime.date.today().isoformat()}
+            about = tables.about("Spheres in a resolved flow", "./barchan sweep (the studies resolved-*)", identity)
             for what, x, y in measure(Tracks(run)):
                 lines += [f"{what},{file.parent.name},{x[n]:.5g},{y[n]:.5g}" for n in thin(len(x), 60)]
     if not lines:

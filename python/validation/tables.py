@@ -1,12 +1,13 @@
 """Tables that the validation reads and saves: references of tests/reference, results of docs/validation."""
 
+import datetime
 import platform
 from pathlib import Path
 
 from barchan.errors import MissingData
 from barchan.io.tables import Table, read_table
 
-__all__ = ["REFERENCE", "ROOT", "Table", "machine", "read_saved", "read_table", "write"]
+__all__ = ["REFERENCE", "ROOT", "Table", "about", "machine", "read_saved", "read_table", "write"]
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = ROOT / "tests/reference"
@@ -23,6 +24,12 @@ def write(path, notes, lines):
     """`lines` begin with the column names."""
     comments = [f"# {name}: {text}" for name, text in notes.items()]
     path.write_text("\n".join(comments + lines) + "\n")
+
+
+def about(title, command, identity):
+    """What a table says of itself; `identity`: the run.json of a run that it was made from."""
+    return {"title": title, "command": command, "commit": identity["git_hash"],
+            "machine": f'{machine()}; {identity["device"]}', "date": datetime.date.today().isoformat()}
 
 
 def machine():

@@ -78,9 +78,8 @@ void add_grains(Sections& all) {
       "with "
       "tangential_damping off");
   key("thinnest_film", &G::thinnest_film, between(1e-6, 0.1), "",
-      "gap over the radius, as of rough surfaces, below which the film of \"hertz_lubricated\" "
-      "gets "
-      "no stiffer");
+      "gap over the radius below which the film of \"hertz_lubricated\" gets no stiffer: that of "
+      "rough surfaces");
   key("linear_stiffness", &G::linear_stiffness, between(0, 1e30), "N/m",
       "spring stiffness; required with `contact_model` \"linear\"");
   key("sizes", &G::sizes, between(1e-9, 1e6), "m",
