@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/coupling/inner_momentum.hpp"
+#include "src/parallel/mirror.hpp"
 #include "tests/support/flow_fields.hpp"
 
 namespace barchan {
@@ -147,6 +148,51 @@ TEST(Markers, PatchGoesOnOverTheEndsOfAPeriod) {
       EXPECT_EQ((corner.of(2, 2) + plane - k) % 20, 0);
     }
   }
+}
+
+/// Water at rest gets the impulse of the markers of a grain that moves and spins, and its moment
+/// about the centre, to rounding.
+TEST(Markers, WaterGetsTheirImpulseAndItsMoment) {
+  constexpr Real h = SolidFlow::h, density = 1000, mass = density * h * h * h;
+  const Grid grid = stretched_grid({20, 20, 20}, {2, 2, 2}, 0);
+  FaceVector u = make_faces("test: u", grid);
+  GrainKinematics grain;
+  grain.x = {1.03, 0.98, 1.06}, grain.u = {0.3, -0.2, 0.1}, grain.omega = {2, -1, 3};
+  grain.r = 0.435;
+  std::vector<Vec3> directions(static_cast<std::size_t>(markers_on_sphere(4)));
+  const int n = static_cast<int>(directions.size());
+  for (int m = 0; m < n; ++m) directions[static_cast<std::size_t>(m)] = marker_direction(m, n);
+  const Markers markers{.direction = to_device("test: directions", directions),
+                        .grains = to_device("test: grain", std::vector{grain}),
+                        .retraction = 0.35 * h,
+                        .n = n};
+  const GrainPatch patch = GrainPatch::of(grid, 4 * h, kReachOfDelta, h);
+  const MarkerValues values{
+      .patch = Kokkos::View<Real*>("test: patch", static_cast<std::size_t>(patch.size())),
+      .read = Kokkos::View<Vec3*>("test: read", directions.size()),
+      .given = Kokkos::View<Vec3*>("test: given", directions.size())};
+  const Kokkos::View<ImpulseOnWater*> impulse("test: impulse", 1);
+  const auto teams = [](int count) { return Kokkos::TeamPolicy<>(count, kOnHost ? 1 : 32); };
+  Kokkos::parallel_for("test: spread", teams(1), SpreadSlip{patch, markers, h, values});
+  Kokkos::parallel_for("test: add", teams(grid.nz),
+                       AddToFlow{patch, markers.grains, 1, values.patch, FaceRef(u)});
+  Kokkos::parallel_for("test: sum", teams(1),
+                       SumOfMarkers{markers, h, h * h * h, density, values.given, impulse});
+  const HostField x = to_host(u.x), y = to_host(u.y), z = to_host(u.z);
+  ImpulseOnWater got;
+  const auto add = [&](const Vec3& place, const Vec3& velocity) {
+    got += {mass * velocity, mass * cross(place - grain.x, velocity)};
+  };
+  for_owned_cells(grid, [&](int i, int j, int k) {
+    const Vec3 face{i * h, j * h, k * h}, half{h / 2, h / 2, h / 2};
+    add(face + Vec3{0, half.y, half.z}, {x(i, j, k), 0, 0});
+    add(face + Vec3{half.x, 0, half.z}, {0, y(i, j, k), 0});
+    add(face + Vec3{half.x, half.y, 0}, {0, 0, z(i, j, k)});
+  });
+  const ImpulseOnWater given = host_copy(impulse)(0);
+  EXPECT_GT(norm(given.angular), 0.1 * grain.r * norm(given.linear));
+  EXPECT_LT(norm(got.linear - given.linear), 1e-13 * norm(given.linear));
+  EXPECT_LT(norm(got.angular - given.angular), 1e-13 * norm(given.angular));
 }
 
 TEST(InnerMomentum, IsThatOfASolidMotion) {
