@@ -77,7 +77,7 @@ void add_grains(Sections& all) {
       "factor on the dashpots along contacts, which limit the grain step; 0: none, as LIGGGHTS "
       "with "
       "tangential_damping off");
-  key("thinnest_film", &G::thinnest_film, between(1e-6, 0.1), "",
+  key("thinnest_film", &G::thinnest_film, between(1e-6, 0.5), "",
       "gap over the radius below which the film of \"hertz_lubricated\" gets no stiffer: that of "
       "rough surfaces");
   key("linear_stiffness", &G::linear_stiffness, between(0, 1e30), "N/m",

@@ -102,7 +102,7 @@ TEST(ConfigValidate, ContradictionsAreErrorsWithTheirKey) {
        "a "
        "boundary_x other than \"periodic\""},
       {both + "[coupling]\nscheme = \"resolved\"\n", "grains.floor=glued",
-       "--set grains.floor = \"glued\": must come with grains.frozen = true where a case has a "
+       "[coupling] scheme = \"resolved\": must come with grains.frozen = true where a case has a "
        "glued floor"},
       {both + "[coupling]\nscheme = \"resolved\"\n", "coupling.drag=none",
        "--set coupling.drag = \"none\": must be absent with scheme = \"resolved\""},
