@@ -8,7 +8,6 @@ than two diameters to the sides of the window, which do not match, are left out.
 highest top within d along the floor to its own.
 """
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +17,7 @@ from matplotlib.patches import Circle
 from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.io.run_folder import RunFolder
+from barchan.io.study_folder import gap_of
 from validation import planes, tables
 
 NAME = "dune_window"
@@ -76,27 +76,22 @@ def rows_of(place, resolved, others):
             yield ",".join([place, str(i), f"{depth[n]:.3f}", *(f"{f[axis]:.4f}" for f in forces for axis in (0, 1))])
 
 
-def finished(path):
-    return (path / "run.json").exists() and json.loads((path / "run.json").read_text())["status"] == "done"
-
-
 def save(study_path, folder):
     """Keeps a row for each grain as dune_window.csv; its path. Draws the flow at the crest, dune_window_crest.png."""
-    study, lines, identity = Path(study_path), [], None
+    study, lines = Path(study_path), []
     for place in PLACES:
         layered = [study / f"{'crest' if place == 'fine' else place}-{kind}" for kind in ("paper", "complete")]
-        if not all(finished(path) for path in (study / place, *layered)):
+        if any(gap_of(path) for path in (study / place, *layered)):
             continue
-        resolved, identity = Grains(study / place), json.loads((study / place / "run.json").read_text())
+        resolved = Grains(study / place)
         lines += rows_of(place, resolved, [Grains(path) for path in layered])
         if place == "crest":
             style.save(draw_flow(resolved), folder, "dune_window_crest", "Barchan, validation")
-    if identity is None:
+    if not lines:
         raise MissingData(f"needs a window in {study} that is resolved and under both kinds of forces")
-    command = "./barchan sweep configs/validation/resolved-window-study.toml"
-    said = tables.about("Forces on the grains of a dune", command, identity)
-    tables.write(folder / f"{NAME}.csv", said, [COLUMNS, *lines])
-    return folder / f"{NAME}.csv"
+    return tables.keep(folder / f"{NAME}.csv", "Forces on the grains of a dune",
+                       "./barchan sweep configs/validation/resolved-window-study.toml", resolved.run.summary,
+                       [COLUMNS, *lines])
 
 
 def draw_flow(grains):

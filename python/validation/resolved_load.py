@@ -3,10 +3,9 @@
 `--keep` takes the folder of the runs of configs/validation/resolved-load-study.toml and resolved-laminar*.toml,
 runs/validation. A row is the second half of a run. Under a lid the Shields number is that of the force of the water on
 all grains, else that of laminar_bed, as is q_v/q_f. q* = q / sqrt((s - 1) g d^3), with the volume flux q less what the
-lowest layer carries, which slides on the smooth floor. A grain moves when it is faster than a tenth of sqrt((s - 1) g d).
+lowest layer carries, which slides on the smooth floor. A grain moves when it is faster than MOVES sqrt((s - 1) g d).
 """
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +13,7 @@ import numpy as np
 from barchan import Run
 from barchan.errors import MissingData
 from barchan.figures import style
+from barchan.io.study_folder import gap_of
 from validation import bed_load, laminar_bed, tables
 
 NAME = "resolved_load"
@@ -70,22 +70,19 @@ def finished(runs):
     """Name and run of each that is done."""
     lid = sorted(runs.glob("resolved-load-study/*/"))
     for path, name in [(path, path.name) for path in lid] + [(runs / folder, name) for folder, name in LAMINAR.items()]:
-        if (path / "run.json").exists() and json.loads((path / "run.json").read_text())["status"] == "done":
+        if gap_of(path) is None:
             yield name, Run(path)
 
 
 def save(runs, folder):
     """Keeps a row for each finished run as resolved_load.csv; its path."""
-    rows, identity = [], None
-    for name, run in finished(Path(runs)):
-        rows.append(f"{name},{bed_load.as_row(measure(run))}")
-        identity = json.loads((run.path / "run.json").read_text())
-    if identity is None:
+    found = list(finished(Path(runs)))
+    if not found:
         raise MissingData(f"needs a finished run of resolved-load-study or resolved-laminar in {runs}")
-    command = "./barchan sweep configs/validation/resolved-load-study.toml (and the cases resolved-laminar*)"
-    said = tables.about("Bed load with every grain resolved", command, identity)
-    tables.write(folder / f"{NAME}.csv", said, [COLUMNS, *rows])
-    return folder / f"{NAME}.csv"
+    return tables.keep(folder / f"{NAME}.csv", "Bed load with every grain resolved",
+                       "./barchan sweep configs/validation/resolved-load-study.toml (and the cases resolved-laminar*)",
+                       found[-1][1].summary,
+                       [COLUMNS, *(f"{name},{bed_load.as_row(measure(run))}" for name, run in found)])
 
 
 def of_scheme(table, scheme):

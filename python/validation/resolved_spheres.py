@@ -5,7 +5,6 @@ Lengths are in diameters. A rebound is the speed upwards at a gap of 0.1 d over 
 restitution without water; 0: the sphere does not come so high.
 """
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +14,7 @@ from matplotlib.patches import Circle
 from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.io.run_folder import RunFolder
+from barchan.io.study_folder import gap_of
 from barchan.io.tables import thin
 from validation import planes, tables
 
@@ -88,13 +88,12 @@ MEASURED = {"settling-study": settling, "sinking-study": sinking, "rebound-study
 
 def save(runs, folder):
     """Keeps the curves of the finished runs as resolved_spheres.csv; its path. Draws the two spheres, tumbling.png."""
-    lines, about = [], {}
+    lines = []
     for name, measure in MEASURED.items():
         for file in sorted(Path(runs).glob(f"resolved-{name}/**/grains.h5")):
-            run, identity = RunFolder(file.parent), json.loads((file.parent / "run.json").read_text())
-            if identity["status"] != "done":
+            if gap_of(file.parent):
                 continue
-            about = tables.about("Spheres in a resolved flow", "./barchan sweep (the studies resolved-*)", identity)
+            run = RunFolder(file.parent)
             for what, x, y in measure(Tracks(run)):
                 lines += [f"{what},{file.parent.name},{x[n]:.5g},{y[n]:.5g}" for n in thin(len(x), 60)]
     if not lines:
@@ -103,8 +102,8 @@ def save(runs, folder):
     if (pair / "fields.h5").exists():
         figure = draw_pair(RunFolder(pair), Figure(figsize=(style.FULL_WIDTH, 2.9), layout="constrained"))
         style.save(figure, folder, "tumbling", "Barchan, validation")
-    tables.write(folder / f"{NAME}.csv", about, [COLUMNS, *lines])
-    return folder / f"{NAME}.csv"
+    return tables.keep(folder / f"{NAME}.csv", "Spheres in a resolved flow",
+                       "./barchan sweep (the studies resolved-*)", run.summary, [COLUMNS, *lines])
 
 
 def draw_pair(run, figure):

@@ -7,7 +7,7 @@ from pathlib import Path
 from barchan.errors import MissingData
 from barchan.io.tables import Table, read_table
 
-__all__ = ["REFERENCE", "ROOT", "Table", "about", "machine", "read_saved", "read_table", "write"]
+__all__ = ["REFERENCE", "ROOT", "Table", "about", "keep", "machine", "read_saved", "read_table", "write"]
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = ROOT / "tests/reference"
@@ -30,6 +30,12 @@ def about(title, command, identity):
     """What a table says of itself; `identity`: the run.json of a run that it was made from."""
     return {"title": title, "command": command, "commit": identity["git_hash"],
             "machine": f'{machine()}; {identity["device"]}', "date": datetime.date.today().isoformat()}
+
+
+def keep(path, title, command, identity, lines):
+    """Writes the table that `about` describes; its path."""
+    write(path, about(title, command, identity), lines)
+    return path
 
 
 def machine():
