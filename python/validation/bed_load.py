@@ -4,6 +4,9 @@ Laws beside it, with the Shields number s = stress / ((rho_s - rho_f) g d) and q
 Wong & Parker, J. Hydraul. Eng. 132, 1159 (2006), fitted to rough beds; van Rijn, J. Hydraul. Eng. 110, 1431 (1984),
 to sand of 0.2 to 2 mm, with the threshold of Soulsby & Whitehouse (1997). In laminar flow grains begin to move at
 s = 0.12 +- 0.03: Ouriemi et al., Phys. Fluids 19, 061706 (2007).
+
+The stress is that at the surface of the bed (bed_surface.py). Of runs without bedload.csv it is the driving gradient
+times the height of the water above a bed packed to PACKED.
 """
 
 import json
@@ -12,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from barchan.figures import style
-from validation import tables
+from validation import bed_surface, tables
 from barchan.errors import MissingData
 from barchan.stats import spread
 from barchan.io.study_folder import StudyFolder, gap_of
@@ -26,7 +29,7 @@ FORCES = {9: "all forces", 8: "without mixture viscosity", 5: "forces of the pap
 MOVES = 1e-4  # q* below it counts as rest
 KEYS = 4  # the first columns: which run a row is of
 COLUMNS = ("rolling_friction,smoothing_length,mean_velocity,realisation,seconds,stress,shields,grain_reynolds,flux,"
-           "q_star,q_star_deviation")
+           "q_star,q_star_deviation,bed_surface")
 
 
 def wong_parker(shields):
@@ -62,12 +65,14 @@ def measure(run):
     water_above = config["domain"]["size"][1] - volume / (PACKED * area)
     late = history["t"] > SMOOTHING_ITSELF
     t, flux = history["t"][late], history["grain_flux"][late]
-    stress = np.mean(history["pressure_gradient"][late]) * water_above
+    bed = bed_surface.of(run)
+    stress = bed.stress if bed.known else np.mean(history["pressure_gradient"][late]) * water_above
+    shields = bed.shields if bed.known else stress / scales.stress
     blocks = [np.mean(block) / scales.flux for block in np.array_split(flux, max(1, round(t[-1] - SMOOTHING_ITSELF)))]
     return (config["grains"]["rolling_friction"], config["coupling"]["smoothing_length"],
             config["fluid"]["mean_velocity"], config["initial"]["realisation"], t[-1] - SMOOTHING_ITSELF, stress,
-            stress / scales.stress, np.sqrt(stress / WATER) * scales.size / VISCOSITY,
-            np.mean(flux), np.mean(flux) / scales.flux, np.std(blocks))
+            shields, np.sqrt(stress / WATER) * scales.size / VISCOSITY,
+            np.mean(flux), np.mean(flux) / scales.flux, np.std(blocks), bed.surface)
 
 
 def finished(study_path):
@@ -96,7 +101,8 @@ def key_of(row, keys=KEYS):
 def with_earlier(path, said, rows, keys=KEYS):
     """Notes and rows with those of an earlier table: a run that was done again replaces its row.
 
-    A study of many hours is so gathered from several machines; the notes name every commit, machine and day.
+    A study of many hours is so gathered from several machines; the notes name every commit, machine and day. Columns
+    that the earlier table did not have are added at the end; its rows have no number there.
     """
     if not path.exists():
         return said, rows
@@ -104,7 +110,9 @@ def with_earlier(path, said, rows, keys=KEYS):
     for name in ("commit", "machine", "date"):
         before = earlier.notes.get(name, "").split(" and ")
         said[name] = " and ".join(dict.fromkeys([*filter(None, before), *said[name].split(" and ")]))
-    kept = {key_of(row, keys): row for row in map(as_row, zip(*earlier.columns.values()))}
+    new = max((row.count(",") + 1 for row in rows), default=0)
+    lacking = ",nan" * max(0, new - len(earlier.columns))
+    kept = {key_of(row, keys): row + lacking for row in map(as_row, zip(*earlier.columns.values()))}
     return said, list((kept | {key_of(row, keys): row for row in rows}).values())
 
 

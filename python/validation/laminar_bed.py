@@ -4,7 +4,8 @@ Beside experiment and resolved simulations (tests/reference/laminar_bed.csv), by
 the solid fraction falls below 0.05. Above it the liquid is h_f high. Re = q_f/nu, with the flux of liquid q_f, and the
 Shields number is that of Poiseuille flow between this height and the lid, 6 Re/Ga^2 (d/h_f)^2. q_v is the integral over
 height of the mean velocity of the grains in layers of d/2. It is not a flux of volume: a lone grain counts as much as a
-full layer. The flux of volume, sum of V_p u_x over the area, stands beside it.
+full layer. The flux of volume, sum of V_p u_x over the area, stands beside it. So do height, Shields number and q* by
+the rule for all beds here (bed_surface.py), which the papers do not have.
 """
 
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from barchan.figures import style
-from validation import tables
+from validation import bed_surface, tables
 from barchan.errors import MissingData
 from barchan.stats import spread
 from validation import bed_load
@@ -23,7 +24,7 @@ BLOCKS = 5  # of the second half of a run, which is measured
 LEVELS = 20  # of the solid fraction, per diameter
 KEYS = 6  # the first columns: which run a row is of
 COLUMNS = ("reynolds,row_height,smoothing_length,sliding_friction,forces,realisation,seconds,fluid_height,shields,"
-           "velocity_flux,velocity_flux_deviation,volume_flux,volume_flux_deviation")
+           "velocity_flux,velocity_flux_deviation,volume_flux,volume_flux_deviation,bed_surface,bed_shields,q_star")
 SETTING = COLUMNS.split(",")[1:5]
 CASES = "laminar_bed.csv"
 
@@ -108,11 +109,13 @@ def measure(run):
     reynolds, fluid_height = fluid_flux / scales.viscosity, scales.height - bed
     by_velocity = mean_and_deviation([velocity_flux(grains, bed, scales.size / 2) for grains in frames])
     by_volume = mean_and_deviation(history["grain_flux"][late])
+    by_rule = bed_surface.of(run)
     return (reynolds, config["fluid"]["first_cell_height"] / scales.size,
             config["coupling"]["smoothing_length"] / scales.size, config["grains"]["sliding_friction"],
             float(len(config["coupling"]["forces"])), config["initial"]["realisation"], end / 2,
             fluid_height / scales.size, scales.shields(reynolds, fluid_height),
-            *(value / fluid_flux for value in (*by_velocity, *by_volume)))
+            *(value / fluid_flux for value in (*by_velocity, *by_volume)),
+            by_rule.surface, by_rule.shields, by_rule.q_star)
 
 
 def save(study_path, folder):

@@ -1,9 +1,10 @@
 """resolved_load: bed load with every grain resolved, and the same beds with the layered exchange.
 
 `--keep` takes the folder of the runs of configs/validation/resolved-load-study.toml and resolved-laminar*.toml,
-runs/validation. A row is the second half of a run. Under a lid the Shields number is that of the force of the water on
-all grains, else that of laminar_bed, as is q_v/q_f. q* = q / sqrt((s - 1) g d^3), with the volume flux q less what the
-lowest layer carries, which slides on the smooth floor. A grain moves when it is faster than MOVES sqrt((s - 1) g d).
+runs/validation. A row is the second half of a run. Shields number and q* are those of bedload.csv (bed_surface.py). Of
+runs without it the Shields number is that of the force of the water on all grains under a lid, else that of
+laminar_bed; q* = q / sqrt((s - 1) g d^3), with the volume flux q less what the lowest layer carries, which slides on
+the smooth floor. q_v/q_f is that of laminar_bed. A grain moves when it is faster than MOVES sqrt((s - 1) g d).
 """
 
 from pathlib import Path
@@ -14,7 +15,7 @@ from barchan import Run
 from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.io.study_folder import gap_of
-from validation import bed_load, laminar_bed, tables
+from validation import bed_load, bed_surface, laminar_bed, tables
 
 NAME = "resolved_load"
 COLUMNS = "case,seconds,shields,q_star,deviation,moving,speed,ratio"
@@ -60,10 +61,14 @@ def measure(run):
     bed = laminar_bed.surface_of(frames, of_bed)
     shields = stress / scales.stress if run.config["fluid"].get("top_velocity") else of_bed.shields(
         water / of_bed.viscosity, of_bed.height - bed)
+    by_rule = bed_surface.of(run)
     carried = [flux(*(np.asarray(part, float) for part in (one.x, one.u, one.d)), scales) for one in frames]
     moving, speed = np.mean([movers(one.u, scales) for one in frames], axis=0)
     by_velocity = np.mean([laminar_bed.velocity_flux(one, bed, scales.d / 2) for one in frames])
-    return (file.times[-1] / 2, shields, *laminar_bed.mean_and_deviation(carried), moving, speed, by_velocity / water)
+    q_star, deviation = laminar_bed.mean_and_deviation(carried)
+    if by_rule.known:
+        shields, q_star = by_rule.shields, by_rule.q_star
+    return (file.times[-1] / 2, shields, q_star, deviation, moving, speed, by_velocity / water)
 
 
 def finished(runs):

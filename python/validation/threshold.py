@@ -10,6 +10,9 @@ history.csv does not count grains that move. Its flux is sum(m u) and its kineti
 area, so (sum m u)^2 / sum(m u^2) is the mass of grains that move at one velocity with the same flux and energy. It is
 proportional to the share of the grains that move, as long as their velocities are distributed alike, and goes to zero
 with it.
+
+The stress is that at the surface of the bed (bed_surface.py). Of runs without bedload.csv it is the stress on all
+grains, less that of the pressure that speeds up the flow.
 """
 
 import json
@@ -18,8 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from barchan.figures import style
-from validation import tables
-from validation import bed_load
+from validation import bed_load, bed_surface, tables
 
 NAME = "threshold"
 WINDOW, START = 0.25, 0.5  # [s]
@@ -47,7 +49,9 @@ def measure(run):
     area = config["domain"]["size"][0] * config["domain"]["size"][2]
     volume = np.sum(np.pi / 6 * run.frame(0).d.astype(float)**3)
     acceleration = np.polyfit(history["t"], history["bulk_velocity"], 1)[0]
-    stress = history["stress_on_grains"] - bed_load.WATER * acceleration * volume / area
+    bed = bed_surface.of(run)
+    stress = (bed_surface.stress_in_time(bed, run, acceleration) if bed.known
+              else history["stress_on_grains"] - bed_load.WATER * acceleration * volume / area)
     case = (config["grains"]["rolling_friction"], float(len(config["coupling"]["forces"])),
             float(acceleration < 0), config["initial"]["realisation"])
     window = np.ceil(history["t"] / WINDOW - 1e-9)  # the one that ends next

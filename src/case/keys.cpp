@@ -260,6 +260,8 @@ void add_statistics(Sections& all) {
   key("fields", &S::fields, "means and second moments in every cell, `flow_average.h5`");
   key("grain_forces", &S::grain_forces,
       "resultant force on the grains around the largest dune, `force_map.csv`");
+  key("bed_load", &S::bed_load,
+      "grains in layers, surface of the bed, stress and load there, `bedload.csv`");
 }
 
 void add_solver(Sections& all) {

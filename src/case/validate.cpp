@@ -178,12 +178,24 @@ void check_output(const Config& c, Findings& found) {
                    "is 0 as all other intervals: the run leaves nothing but its last state");
 }
 
+void check_bed_load(const Config& c, Findings& found) {
+  const std::vector<std::string> with_grains{"statistics.bed_load", "grains"};
+  if (found.error_if(!c.grains, with_grains, "must be absent without a [grains] section")) return;
+  found.error_if(c.grains->frozen, {"statistics.bed_load", "grains.frozen"},
+                 "must be absent with frozen grains: none moves");
+  found.error_if(!c.bodies.empty(), {"statistics.bed_load", "body"},
+                 "must be absent with bodies: what they take of the stress is not known by height");
+  found.error_if(c.grains->gravity[1] >= 0, {"statistics.bed_load", "grains.gravity"},
+                 "must come with gravity towards the floor");
+}
+
 void check_statistics(const Config& c, Findings& found) {
   if (!c.statistics) return;
   found.error_if(!c.fluid, {"statistics.start", "fluid"},
                  "must be absent without a [fluid] section");
   found.error_if(c.statistics->grain_forces && !c.grains, {"statistics.grain_forces", "grains"},
                  "must be absent without a [grains] section");
+  if (c.statistics->bed_load) check_bed_load(c, found);
   found.error_if(c.statistics->start >= c.time.end, {"statistics.start", "time.end"},
                  "must be before the end, {:.6g} s", c.time.end);
   check_interval(c, "statistics.interval", c.statistics->interval, found);

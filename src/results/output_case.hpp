@@ -47,6 +47,7 @@ struct StatisticsConfig {
   double interval = 0.01;     // between samples [s]
   bool fields = false;        // means and second moments of the flow in every cell
   bool grain_forces = false;  // resultant force on the grains in polar bins around the main dune
+  bool bed_load = false;      // profiles of the grains, and surface, stress and load of the bed
   bool operator==(const StatisticsConfig&) const = default;
 };
 

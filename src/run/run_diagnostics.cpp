@@ -21,6 +21,14 @@ DuneDomain dune_domain(const Config& config) {
           .periodic_z = grains && config.grains->boundary_z == GrainBoundaryZ::periodic};
 }
 
+BedLoad::Surroundings surroundings(const Config& config) {
+  const auto& [x, y, z] = config.grains->gravity;
+  return {.fluid_density = config.fluid->density,
+          .viscosity = config.fluid->kinematic_viscosity,
+          .gravity = {x, y, z},
+          .fluid_in_grains = config.coupling.scheme == CouplingScheme::resolved};
+}
+
 }  // namespace
 
 RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_domain(run.config)) {
@@ -30,6 +38,7 @@ RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_d
   statistics_.emplace(*run.config.fluid, run.state.fluid->grid);
   if (config->fields) flow_average_.emplace(run.state.fluid->grid);
   if (config->grain_forces) force_map_.emplace(dune_domain(run.config));
+  if (config->bed_load) bed_load_.emplace(surroundings(run.config), run.state.fluid->grid);
 }
 
 std::vector<DuneRecord> RunDiagnostics::find_dunes() {
@@ -72,6 +81,7 @@ bool RunDiagnostics::sample_due() const {
 void RunDiagnostics::sample() {
   statistics_->sample(*run_.state.fluid);
   if (flow_average_) flow_average_->sample(*run_.state.fluid, run_.clock.time());
+  if (bed_load_) bed_load_->sample(*run_.state.fluid, *run_.state.grains, run_.clock.time());
   if (!force_map_) return;
   const GrainState& grains = *run_.state.grains;
   const std::vector<GrainSample> all = gathered_grains(grains);
@@ -85,6 +95,7 @@ void RunDiagnostics::write(const std::filesystem::path& folder, const OutputFile
   if (statistics_) statistics_->write(folder / "statistics.csv");
   if (flow_average_) flow_average_->write(output, run_.clock.time(), run_.clock.step);
   if (force_map_ && rank_of(run_.ranks) == 0) force_map_->write(folder / "force_map.csv");
+  if (bed_load_) bed_load_->write(folder / "bedload.csv");
 }
 
 void RunDiagnostics::save(CheckpointWriter& file) const {
@@ -93,6 +104,7 @@ void RunDiagnostics::save(CheckpointWriter& file) const {
   if (statistics_) statistics_->save(file);
   if (flow_average_) flow_average_->save(file);
   if (force_map_) force_map_->save(file);
+  if (bed_load_) bed_load_->save(file);
 }
 
 void RunDiagnostics::load(const CheckpointReader& file) {
@@ -100,6 +112,7 @@ void RunDiagnostics::load(const CheckpointReader& file) {
   if (statistics_) statistics_->load(file);
   if (flow_average_) flow_average_->load(file);
   if (force_map_) force_map_->load(file);
+  if (bed_load_) bed_load_->load(file);
 }
 
 }  // namespace barchan

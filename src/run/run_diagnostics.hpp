@@ -1,6 +1,7 @@
 // Measurements during a run.
 #pragma once
 
+#include "src/diagnostics/bed_load.hpp"
 #include "src/diagnostics/dune_analytics.hpp"
 #include "src/diagnostics/flow_average.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
@@ -37,7 +38,7 @@ class RunDiagnostics {
   void sample();
   /// Probes of the case; nullptr without any.
   Probes* probes() { return probes_ ? &*probes_ : nullptr; }
-  /// Writes statistics.csv, flow_average.h5 and force_map.csv.
+  /// Writes statistics.csv, flow_average.h5, force_map.csv and bedload.csv.
   void write(const std::filesystem::path& folder, const OutputFiles& output);
 
   void save(CheckpointWriter& file) const;
@@ -51,6 +52,7 @@ class RunDiagnostics {
   std::optional<FlowStatistics> statistics_;
   std::optional<FlowAverage> flow_average_;
   std::optional<ForceMap> force_map_;
+  std::optional<BedLoad> bed_load_;
   std::optional<Probes> probes_;
 };
 

@@ -47,6 +47,7 @@ constexpr ResultFile kResultFiles[] = {
     {"flow_average.h5", "averages of the flow over time in every cell"},
     {"flow_average.xdmf", "description of flow_average.h5 for ParaView"},
     {"force_map.csv", "mean force on the grains about the dune"},
+    {"bedload.csv", "grains in layers, surface of the bed, stress and load there"},
     {"fields.h5", "frames of the flow in every cell"},
     {"fields.xdmf", "description of fields.h5 for ParaView"},
     {"grains.h5", "frames of all grains"},

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "src/diagnostics/bed_load.hpp"
 #include "src/diagnostics/body_table.hpp"
 #include "src/diagnostics/dune_table.hpp"
 #include "src/diagnostics/flow_statistics.hpp"
@@ -23,6 +24,7 @@ void for_each_table(const Action& action) {
   action(kProbeTable);
   action(kStatisticsTable);
   action(kForceMapTable);
+  action(kBedLoadTable);
 }
 
 inline constexpr const char* kColumnsFile = "columns.json";

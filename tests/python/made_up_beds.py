@@ -19,6 +19,8 @@ class MadeUpRun:
     history_columns = {"t": t, "grain_flux": np.where(t > 2, 1e-7 + 2e-7 * second, 1.0),
                        "pressure_gradient": np.where(t > 2, 20.0, 90.0)}
 
+    bed_load_columns = {}
+
     @staticmethod
     def frame(index):
         return Grains(0.0, np.arange(1000), np.zeros((1000, 3)), np.full(1000, 2e-4, np.float32))

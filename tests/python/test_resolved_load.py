@@ -43,7 +43,7 @@ def test_rows_are_the_second_half_of_a_run():
     times = np.arange(20.0)
     speeds = np.where(times > 9.5, 0.0551, 0)
     run = types.SimpleNamespace(
-        config=CONFIG, path="run", grain_file=types.SimpleNamespace(times=times),
+        config=CONFIG, path="run", bed_load_columns={}, grain_file=types.SimpleNamespace(times=times),
         need_grains=lambda: run.grain_file, frame=lambda n: bed(speeds[n]),
         history_columns={"t": times, "stress_on_grains": np.where(times > 9.5, 0.5886, 9),
                          "bulk_velocity": np.full(20, 0.1)})
@@ -57,6 +57,10 @@ def test_rows_are_the_second_half_of_a_run():
     bed_top, reynolds = 9.02 * D, 0.1 * 10 * D / 1e-6  # clear water from half a level above the layer on
     expected = 6 * reynolds / (1.5 * 9.81 * D**3 / 1e-12) * (D / bed_top)**2
     assert resolved_load.measure(of_channel)[1] == pytest.approx(expected, rel=0.01)
+    table = {name: np.array([value]) for name, value in
+             zip(("y", "bed_surface", "bed_stress", "shields", "load", "load_velocity", "q_star"), (0, D, 1, 0.3, 1, 1, 0.7))}
+    by_rule = types.SimpleNamespace(**{**vars(run), "bed_load_columns": table})
+    assert resolved_load.measure(by_rule)[1:3] == (0.3, 0.7)
     run.grain_file.times = times[:6]
     with pytest.raises(MissingData, match="second half"):
         resolved_load.measure(run)

@@ -11,6 +11,7 @@ import barchan
 
 LINES = {
     "statistics.csv": "y,y_plus,U,U_plus,uu\n0.001,1.5,0.1,7,1e-4\n0.002,3,0.2,14,2e-4\n",
+    "bedload.csv": "y,solid_fraction,bed_surface,load\n5e-05,0.6,3e-4,0.1\n1e-4,0.5,3e-4,0.1\n",
     "heaps.csv": "t,dune,heap,n_grains,volume\n0,-1,0,22,9e-11\n0,0,0,900,3.8e-9\n0.5,0,1,10,4e-11\n",
     "encounters.csv": "upstream,downstream,class,t_contact,new_dunes\n1,0,merging,0.24,\n0,2,exchange,nan,3 4\n",
     "obstacles.csv": "dune,obstacle,kind,class,t_contact\n0,007,body,bypass,1.5\n",
@@ -33,6 +34,7 @@ def run(tmp_path):
 
 def test_tables_have_their_types_units_and_index(run):
     assert run.statistics.loc[0.002].U == 0.2 and run.statistics.attrs["units"]["uu"] == "m2 s-2"
+    assert run.bed_load.loc[5e-05].bed_surface == 3e-4 and run.bed_load.attrs["units"]["load"] == "kg m-2"
     assert run.heaps.loc[(0, 1, 0.5)].n_grains == 10 and run.heaps.attrs["units"]["volume"] == "m3"
     met = run.encounters
     assert met["class"].tolist() == ["merging", "exchange"] and met.new_dunes.tolist() == ["", "3 4"]

@@ -200,6 +200,24 @@ TEST(ConfigValidate, KeysThatCanDoNothingAreErrors) {
   };
   for (const auto& [text, assignments, words] : idle)
     EXPECT_TRUE(says(problems(text, assignments), words)) << assignments.back();
+  const struct {
+    std::string text;
+    std::vector<std::string> more;
+    std::string words;
+  } bed_loads[] = {
+      {fluid, {}, "bed_load = true: must be absent without a [grains] section"},
+      {coupled_case(), {"grains.frozen=true"}, "must be absent with frozen grains"},
+      {coupled_case(), {"grains.gravity=[0, 0, 0]"}, "must come with gravity towards the floor"},
+      {coupled_case() + "[[body]]\nname = \"b\"\nshape = \"sphere\"\nradius = 1e-3\n"
+                        "centre = [0.05, 0.02]\n",
+       {},
+       "must be absent with bodies"},
+  };
+  for (auto [text, assignments, words] : bed_loads) {
+    assignments.insert(assignments.end(), {"statistics.start=0", "statistics.bed_load=true"});
+    EXPECT_TRUE(says(problems(text, assignments), words)) << words;
+  }
+  EXPECT_TRUE(problems(coupled_case(), {"statistics.start=0", "statistics.bed_load=true"}).empty());
   // Keys at their defaults, as in a resolved case, and keys that have an effect.
   EXPECT_TRUE(
       problems(grains, {"solver.max_iterations=200", "output.fields_interval=0.5"}).empty());

@@ -77,7 +77,7 @@ TEST(Outputs, ThePageHasThoseOfTheProgram) {
 // Beside the tables of a run stands what their columns are, for all that read them.
 TEST(Outputs, ColumnsHaveTheirUnitsInAFile) {
   const auto columns = nlohmann::json::parse(columns_text());
-  EXPECT_EQ(columns.size(), 7u);
+  EXPECT_EQ(columns.size(), 8u);
   EXPECT_EQ(columns.at("dune.csv").at("W").at("unit"), "m");
   EXPECT_EQ(columns.at("dune.csv").at("W").at("meaning"), "width");
   EXPECT_EQ(columns.at("history.csv").at("step").at("unit"), "1") << "not -";

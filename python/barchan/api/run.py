@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from barchan.errors import BarchanError, MissingData, optional, seconds
+from barchan.errors import BarchanError, MissingData, seconds
 from barchan.dune import encounters, obstacles
 from barchan.io import horn_lengths, labelled
 from barchan.io.frames import FrameFile, names_of
@@ -111,6 +111,11 @@ class Run(RunFolder):
         return self._read("statistics.csv", "[statistics]").set_index("y")
 
     @cached_property
+    def bed_load(self) -> DataFrame:
+        """bedload.csv, indexed by y [m]: grains in layers; surface of the bed, stress and load there in all lines."""
+        return self._read("bedload.csv", "statistics.bed_load = true").set_index("y")
+
+    @cached_property
     def heaps(self) -> DataFrame:
         """heaps.csv, indexed by (dune, heap, t [s]): which grains each dune has."""
         return self._read("heaps.csv", "[[initial.heap]]").set_index(["dune", "heap", "t"])
@@ -132,16 +137,7 @@ class Run(RunFolder):
 
     def _read(self, name: str, source: str, about: About | None = None, text: Sequence[str] = ()) -> DataFrame:
         """A table that may have words in it. Raises MissingData, with what writes the table."""
-        pandas = optional("pandas", "pandas")
-        path = self.path / name
-        if not path.is_file():
-            raise MissingData(f"needs {name}: {source}")
-        try:
-            table = pandas.read_csv(path, dtype=dict.fromkeys(text, str), keep_default_na=False, na_values=["nan"])
-        except ValueError as problem:
-            raise BarchanError(f"{path} cannot be read: {problem}") from None
-        return labelled.data_frame({key: table[key].to_numpy() for key in table},
-                                   self.about(name) if about is None else about)
+        return labelled.read_table(self.path / name, source, self.about(name) if about is None else about, text)
 
     @property
     def restarts(self) -> dict[int, Path]:

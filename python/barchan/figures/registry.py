@@ -51,6 +51,7 @@ def table(*entries: Entry) -> dict[str, Entry]:
 
 
 GRAINS, FIELDS, HISTORY, DUNES, MEANS = "grains.h5", "fields.h5", "history.csv", "dune.csv", "statistics.csv"
+BED_LOAD = "bedload.csv"
 BODIES, PROBES = "bodies.csv", "probes.csv|slice_NAME.h5"
 
 OF_RUN = table(
@@ -60,6 +61,8 @@ OF_RUN = table(
     Entry("morphology", "figures.morphology", "width, length, height, centroid, horns against time", (DUNES,)),
     Entry("midplane", "figures.midplane", "flow and grains in the vertical plane through the dune", (FIELDS,)),
     Entry("profiles", "figures.profiles", "turbulence statistics over the height, with channel DNS", (MEANS,)),
+    Entry("bedload", "figures.bedload", "grains over the height: fraction, velocity, production; surface of the bed",
+          (BED_LOAD,)),
     Entry("history", "figures.history", "flow rate, shear, time step and solver against time", (HISTORY,)),
     Entry("encounters", "figures.encounters",
           "dunes that meet: paths, masses, exchange, outcome; writes encounters.csv",

@@ -1,12 +1,13 @@
 """Tables and grains with their names and units: pandas, imported where it is first needed. Figures do without."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 
-from barchan.errors import optional
+from barchan.errors import BarchanError, MissingData, optional
 from barchan.io.units import About
 
 VECTOR_PARTS = {"x": "xyz", "u": "uvw"}  # of others the axis follows the name: omega_x
@@ -50,3 +51,15 @@ def grains_frame(time: float, columns: dict[str, np.ndarray], arrays: About) -> 
     frame = data_frame(flat, about).set_index("id")
     frame.attrs["time"] = time
     return frame
+
+
+def read_table(path: Path, source: str, about: About, text: Sequence[str] = ()) -> Any:
+    """A table in CSV whose columns `text` are words. Raises MissingData, with the `source` that writes it."""
+    pandas = optional("pandas", "pandas")
+    if not path.is_file():
+        raise MissingData(f"needs {path.name}: {source}")
+    try:
+        table = pandas.read_csv(path, dtype=dict.fromkeys(text, str), keep_default_na=False, na_values=["nan"])
+    except ValueError as problem:
+        raise BarchanError(f"{path} cannot be read: {problem}") from None
+    return data_frame({key: table[key].to_numpy() for key in table}, about)

@@ -113,6 +113,11 @@ class RunFolder:
         return read_columns(self.path / "statistics.csv")
 
     @cached_property
+    def bed_load_columns(self) -> dict[str, np.ndarray]:
+        """bedload.csv as {column: values (n)}, {} where there is none."""
+        return read_columns(self.path / "bedload.csv")
+
+    @cached_property
     def dune_columns(self) -> dict[int, dict[str, np.ndarray]] | None:
         """dune.csv as {label: {column: values (n)}}, None where there is none.
 
