@@ -20,6 +20,7 @@ from validation import bed_load
 from validation import cfdem
 from validation import channel
 from validation import contacts
+from validation import dem_cases
 from validation import dune_window
 from validation import flow
 from validation import laminar_bed
@@ -47,9 +48,11 @@ FIGURES = {
     resolved_load.NAME: resolved_load.draw,
     resolved_spheres.NAME: resolved_spheres.draw,
     dune_window.NAME: dune_window.draw,
+    dem_cases.NAME: dem_cases.draw,
 }
 STUDIES = {module.NAME: module
-           for module in (bed_load, threshold, laminar_bed, resolved_bed, resolved_load, resolved_spheres, dune_window)}
+           for module in (bed_load, threshold, laminar_bed, resolved_bed, resolved_load, resolved_spheres, dune_window,
+                          dem_cases)}
 
 
 def parse(arguments):
