@@ -112,6 +112,7 @@ def with_earlier(path, said, rows, keys=KEYS):
         said[name] = " and ".join(dict.fromkeys([*filter(None, before), *said[name].split(" and ")]))
     new = max((row.count(",") + 1 for row in rows), default=0)
     lacking = ",nan" * max(0, new - len(earlier.columns))
+    said |= {name: text for name, text in earlier.notes.items() if name == "rule"}
     kept = {key_of(row, keys): row + lacking for row in map(as_row, zip(*earlier.columns.values()))}
     return said, list((kept | {key_of(row, keys): row for row in rows}).values())
 

@@ -58,9 +58,9 @@ def test_stress_of_a_flow_that_speeds_up():
 def test_an_earlier_table_gets_the_new_columns(tmp_path):
     from validation import tables
 
-    tables.write(tmp_path / "old.csv", {"title": "old"}, ["a,b,c", "1,2,3"])
-    _, rows = bed_load.with_earlier(tmp_path / "old.csv", {"commit": "", "machine": "", "date": ""}, ["2,2,3,4"], 1)
-    assert rows == ["1,2,3,nan", "2,2,3,4"]
+    tables.write(tmp_path / "old.csv", {"title": "old", "rule": "earlier"}, ["a,b,c", "1,2,3"])
+    said, rows = bed_load.with_earlier(tmp_path / "old.csv", {"commit": "", "machine": "", "date": ""}, ["2,2,3,4"], 1)
+    assert rows == ["1,2,3,nan", "2,2,3,4"] and said["rule"] == "earlier"
     assert laminar_bed.COLUMNS.endswith("bed_surface,bed_shields,q_star")
 
 

@@ -43,6 +43,7 @@ def draw(run, ax=None):
     for axes in (panels[1], panels[3]):
         axes.legend(loc="upper right", fontsize=6)
     if np.isfinite(surface):
-        panels[2].set_title(f"Shields {table['shields'][0]:.3g}, $q^*$ {table['q_star'][0]:.3g}")
+        figure.suptitle(f"Shields {table['shields'][0]:.3g}, $q^*$ {table['q_star'][0]:.3g}", fontsize=7.5, x=0.995,
+                        ha="right")
     keep(figure, "bedload", curves)
     return figure
