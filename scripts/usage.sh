@@ -49,6 +49,7 @@ usage: $command_name COMMAND [arguments]
 USAGE
   [ "$installed" = yes ] || cat << 'USAGE'
   plot validation     the figures of docs/validation.md, from saved results
+  benchmark [NAME]    run, measure and score a case of benchmark/; --help lists the options
   test [CTEST ARGS]   build and run the tests (all but those labelled nightly)
   bench [NAME]        performance suite, or the cases with NAME in their name; adds records to runs/bench.jsonl
   docs                make a site of the documentation, with search, in build/site

@@ -29,7 +29,7 @@ expect 0 "barchan 0." --version
 expect 0 "3,000 grains" check --resolved-only quickstart.toml
 expect 0 "3,000 grains" check --resolved-only configs/quickstart.toml
 expect 0 "heap-3k-soft.toml" sweep paper/sizes.toml --list
-for word in setup build test bench docs; do expect 2 "of the source tree" "$word"; done
+for word in setup build test bench benchmark docs; do expect 2 "of the source tree" "$word"; done
 expect 2 "no_such.toml" run no_such.toml
 [ -z "$(ls)" ] || fail "left behind: $(ls)"
 cp "$prefix/share/barchan/configs/heap-3k.toml" quickstart.toml  # the user's own comes first

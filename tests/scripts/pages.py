@@ -86,7 +86,7 @@ def check_command(page, line, help_text, folder):
         return None
     if command not in ("help", "--help", "--version") and not re.search(rf"^  {command} ", help_text, re.M):
         return say(page, f"{line}: there is no command {command}")
-    if command not in ("test", "bench", "plot"):
+    if command not in ("test", "bench", "benchmark", "plot"):
         for option in (word.split("=")[0] for word in arguments if word.startswith("--")):
             if option not in help_text:
                 say(page, f"{line}: the help does not know {option}")

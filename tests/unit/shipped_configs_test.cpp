@@ -62,7 +62,9 @@ TEST(ShippedConfigs, OnlyWarnOfWhatIsMeant) {
                             (published && warning.find("a step in each column") != warning.npos) ||
                             (published && warning.find("diameters narrow") != warning.npos) ||
                             (published && warning.find("cells a diameter") != warning.npos);
-      EXPECT_TRUE(expected) << file << ": " << warning;
+      const bool column = file.stem().string().starts_with("column-") &&
+                          warning.find("alpha_time_derivative") != warning.npos;
+      EXPECT_TRUE(expected || column) << file << ": " << warning;
     }
   }
   EXPECT_TRUE(scour_warned) << "the bed far from the cylinder would move";

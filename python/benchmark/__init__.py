@@ -1,0 +1,105 @@
+"""The benchmark of benchmark/: runs our cases, measures and scores them, and scores the results of other programs.
+
+    ./barchan benchmark                       the cases and their scores
+    ./barchan benchmark NAME ...              run what is missing, measure, score, draw
+    ./barchan benchmark NAME --no-runs        measure the runs that are there
+    ./barchan benchmark NAME --score FILE     score the results of another program
+    ./barchan benchmark [NAME ...] --keep     keep the results in benchmark/NAME/results, and make the page again
+"""
+
+import argparse
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+from barchan.errors import BarchanError, MissingData
+from benchmark import cases, folders, page, scores
+from validation import SAVED, tables
+
+OUT = Path("runs/benchmark")
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(prog="./barchan benchmark",
+                                     description="Runs, measures and scores the cases of benchmark/.")
+    parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(folders.names()))
+    parser.add_argument("--no-runs", action="store_true", help="measure the finished runs that are there")
+    parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="folder of the runs (runs)")
+    parser.add_argument("--score", type=Path, metavar="FILE", help="score this table of results; runs nothing")
+    parser.add_argument("--keep", action="store_true", help="keep the results in benchmark/NAME/results; make the page")
+    options = parser.parse_args(arguments)
+    if options.score and len(options.names) != 1:
+        parser.error("--score needs one case, e.g. column --score results.csv")
+    if options.score and options.keep:
+        parser.error("--keep keeps our own results; put those of another program into benchmark/NAME/results")
+    return options
+
+
+def table_of(case, found):
+    """Lines that say how far each quantity is from the reference."""
+    yield f"{case.name}: {case.title}"
+    yield f"  {'quantity':<20} {'distance':>8} {'bias':>7} {'points':>8}"
+    for name, one in found.items():
+        if one.reached:
+            yield f"  {name:<20} {one.distance:8.2f} {one.bias:+7.2f} {one.reached:3d} of {one.points:<3d} {one.word}"
+        else:
+            yield f"  {name:<20} {'-':>8} {'-':>7} {one.reached:3d} of {one.points:<3d} not reached"
+    yield f"  {'score':<20} {scores.total(found):8.2f}   in errors of the reference; below 1: within them"
+
+
+def run_studies(name):
+    """The sweeps of a case; True if all are done. Ctrl-C stops them, and us."""
+    for study in cases.MEASURES[name].STUDIES:
+        handler = signal.signal(signal.SIGINT, signal.SIG_IGN)  # the sweep stops its runs with grace
+        try:
+            status = subprocess.run([folders.ROOT / "barchan", "sweep", folders.ROOT / f"configs/{study}.toml"],
+                                    check=False, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        finally:
+            signal.signal(signal.SIGINT, handler)
+        if status.returncode != 0:
+            return False
+    return True
+
+
+def handle(name, options):
+    """Measures and scores one case; its lines are printed."""
+    case = folders.find(name)
+    if options.score:
+        curves = folders.read_results(options.score, case)
+    else:
+        if not options.no_runs and not run_studies(name):
+            raise BarchanError(f"{name}: not all runs are done; the same command goes on")
+        curves, notes = cases.measure(name, options.runs, SAVED)
+        file = case.result_file() if options.keep else OUT / f"{name}.csv"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        tables.write(file, notes, cases.lines(curves))
+        print(f"{name}: results in {file}")
+    found = scores.scores(case.reference, curves)
+    print("\n".join(table_of(case, found)))
+    if not options.score and not options.keep:
+        page.draw(case, {folders.OWN: curves}, OUT / f"{name}.svg")
+
+
+def main(arguments):
+    options = parse(arguments)
+    try:
+        if not options.names and not options.keep:
+            for name in folders.names():
+                case = folders.find(name)
+                for program in case.programs:
+                    total = scores.total(scores.scores(case.reference, case.result(program)[1]))
+                    print(f"{name:<10} {program:<10} {total:6.2f}   {case.title}")
+            print("score: mean distance in errors of the reference; ./barchan benchmark NAME runs a case")
+            return 0
+        for name in options.names:
+            handle(name, options)
+        if options.keep:
+            print(f"page: {page.write()}")
+    except MissingData as problem:
+        print(f"benchmark: {problem}", file=sys.stderr)
+        return 1
+    except BarchanError as problem:
+        print(f"benchmark: error: {problem}", file=sys.stderr)
+        return 2
+    return 0

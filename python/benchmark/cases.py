@@ -1,0 +1,60 @@
+"""Which measurement belongs to which case, and the rows that it makes of our runs."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from barchan import Run
+from barchan.errors import MissingData
+from barchan.io.study_folder import gap_of
+from benchmark import barchan_dune, column, encounter, flat_bed, one_grain, scour
+from benchmark.folders import RESULT_COLUMNS, Curve
+from validation import tables
+
+MEASURES = {"one-grain": one_grain, "flat-bed": flat_bed, "column": column, "barchan": barchan_dune,
+            "encounter": encounter, "scour": scour}
+
+
+def finished(folder):
+    """The finished runs of a study's folder, each once, in the order of their names."""
+    paths = sorted(file.parent for file in Path(folder).glob("*/run.json"))
+    return [Run(path) for path in paths if gap_of(path) is None]
+
+
+def together(found):
+    """Quantity -> Curve of the mean over runs and its standard deviation, from the (at, value) of each run."""
+    curves = {}
+    for name in dict.fromkeys(name for one in found for name in one):
+        of = [one[name] for one in found if name in one]
+        at = np.asarray(of[0][0], float)
+        if np.isnan(at).any():
+            values = np.array([np.mean(value) for _, value in of])[:, None]
+        else:
+            at = at[at <= min(np.max(other) for other, _ in of) * (1 + 1e-9)]
+            values = np.array([np.interp(at, other, value) for other, value in of])
+        spread = values.std(axis=0, ddof=1) if len(of) > 1 else np.full(at.size, np.nan)
+        curves[name] = Curve(at, values.mean(axis=0), spread)
+    return curves
+
+
+def measure(name, runs, saved):
+    """Curves and notes of our results for a case; `runs`: folder of the runs, `saved`: of the validation's tables."""
+    module = MEASURES[name]
+    if hasattr(module, "from_saved"):
+        return module.from_saved(saved)
+    found = finished(Path(runs) / module.RUNS)
+    if not found:
+        raise MissingData(f"needs a finished run in {Path(runs) / module.RUNS}: ./barchan benchmark {name}")
+    curves = together([module.measure_run(run) for run in found])
+    seconds = sum(run.summary.get("wall_seconds", 0) for run in found)
+    about = tables.about(module.__doc__.split("\n")[0], f"./barchan benchmark {name}",
+                         json.loads((found[0].path / "run.json").read_text(encoding="utf-8")))
+    return curves, {**about, "runs": ", ".join(run.path.name for run in found), "minutes": f"{seconds / 60:.0f}"}
+
+
+def lines(curves):
+    """Rows of a table of results."""
+    shown = lambda number: "" if np.isnan(number) else f"{number:.4g}"  # noqa: E731
+    return [RESULT_COLUMNS, *(f"{name},{shown(at)},{shown(value)},{shown(spread)}" for name, curve in curves.items()
+                              for at, value, spread in zip(curve.at, curve.value, curve.error))]

@@ -1,0 +1,111 @@
+"""The page docs/benchmark.md and its pictures, made from the folders of benchmark/."""
+
+import numpy as np
+
+from barchan.figures import style
+from benchmark import folders, scores
+from validation import tables
+
+PAGE = folders.ROOT / "docs/benchmark.md"
+PICTURES = folders.ROOT / "docs/benchmark"
+COLOURS = style.BLUE, style.VERMILLION, style.GREEN, style.ORANGE
+
+
+def draw(case, programs, file):
+    """Reference with errors and results of each program (name -> curves), one panel for each quantity, as SVG."""
+    reference = {name: known for name, known in case.reference.items() if np.isfinite(known.value).any()}
+    columns = min(3, len(reference))
+    rows = -(-len(reference) // columns)
+    figure, panels = style.panels(None, rows, columns, figsize=(style.FULL_WIDTH, 2.3 * rows), layout="constrained")
+    flat = np.ravel(panels)
+    for axes, (name, known) in zip(flat, reference.items()):
+        single = np.isnan(known.at).all()
+        at = np.zeros(known.at.size) if single else known.at
+        axes.errorbar(at, known.value, known.error, fmt="o", color="0.35", ms=3, capsize=2, lw=0.8, label=known.source)
+        for number, (program, curves) in enumerate(programs.items()):
+            if name not in curves:
+                continue
+            own, colour = curves[name], COLOURS[number % len(COLOURS)]
+            where = np.full(own.at.size, 0.2 * (number + 1)) if single else own.at
+            axes.plot(where, own.value, "s" if single or own.at.size < 8 else "-", color=colour, ms=4, label=program)
+            known_spread = np.isfinite(own.error)
+            if known_spread.any():
+                low, high = own.value - own.error, own.value + own.error
+                if single or own.at.size < 8:
+                    axes.vlines(where[known_spread], low[known_spread], high[known_spread], color=colour)
+                else:
+                    axes.fill_between(where, low, high, color=colour, alpha=0.2, lw=0)
+        if single:
+            axes.set(xticks=[], xlim=(-0.5, 0.8))
+        elif known.at.size > 4:
+            axes.set_xlim(0, known.at[-1] * 1.05)
+        axes.set_title(name.replace("_", " "), fontsize=8)
+    for axes in flat[len(reference):]:
+        axes.set_visible(False)
+    flat[0].legend(fontsize=6)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    style.save(figure, file.parent, file.stem, "Barchan, benchmark", kinds=("svg",))
+
+
+def section(case):
+    """Lines about one case."""
+    reference = case.reference
+    text = [f"## {case.title}", "", f"[Statement](../benchmark/{case.name}/statement.md), "
+            f"[reference](../benchmark/{case.name}/reference.csv). `./barchan benchmark {case.name}`", ""]
+    kept = {program: case.result(program) for program in case.programs}
+    if not kept:
+        return [*text, "No program has results yet.", ""]
+    text += [f"![Reference and results](benchmark/{case.name}.svg)", "",
+             "| quantity | program | distance | bias | points | |", "|---|---|---|---|---|---|"]
+    for name in reference:
+        for program, (_, curves) in kept.items():
+            if name not in curves or np.isnan(reference[name].value).all():
+                continue
+            one = scores.score(reference[name], curves[name])
+            told = f"{one.distance:.1f} | {one.bias:+.1f}" if one.reached else "- | -"
+            word = one.word if one.reached else "not reached"
+            text.append(f"| {name.replace('_', ' ')} | {program} | {told} | {one.reached} of {one.points} | {word} |")
+    for program, (notes, curves) in kept.items():
+        total = scores.total(scores.scores(reference, curves))
+        also = [f"{name.replace('_', ' ')} {curve.value[0]:.3g} {reference[name].unit}" + f" +- {curve.error[0]:.2g}" * bool(
+                np.isfinite(curve.error[0])) for name, curve in curves.items() if np.isnan(reference[name].value).all()]
+        text += ["", f"**Score of {program}: {total:.1f}.** {notes.get('minutes', '?')} core minutes; "
+                 f"commit {notes.get('commit', '?')}." + f" Also: {', '.join(also)}." * bool(also)]
+        remarks = case.result_file(program).with_suffix(".md")
+        if remarks.exists():
+            text += ["", remarks.read_text(encoding="utf-8").rstrip()]
+    return [*text, ""]
+
+
+def overview():
+    rows = ["| case | program | score | core minutes |", "|---|---|---|---|"]
+    for case in map(folders.find, folders.names()):
+        for program in case.programs:
+            notes, curves = case.result(program)
+            total = scores.total(scores.scores(case.reference, curves))
+            rows.append(f"| [{case.name}](#{anchor(case.title)}) | {program} | {total:.1f} | {notes.get('minutes', '?')} |")
+    return rows
+
+
+def anchor(title):
+    return "".join(letter for letter in title.lower().replace(" ", "-") if letter.isalnum() or letter == "-")
+
+
+def text():
+    """The page."""
+    opening = (folders.FOLDER / "README.md").read_text(encoding="utf-8").rstrip()
+    opening = opening.replace("](", "](../benchmark/").replace("](../benchmark/../", "](../")
+    lines = ["<!-- Made by ./barchan benchmark --keep from benchmark/; do not edit. -->", opening, "", "## Scores", "",
+             *overview(), ""]
+    for case in map(folders.find, folders.names()):
+        lines += section(case)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def write():
+    """Makes page and pictures again; the page's path."""
+    for case in map(folders.find, folders.names()):
+        if case.programs:
+            draw(case, {program: case.result(program)[1] for program in case.programs}, PICTURES / f"{case.name}.svg")
+    PAGE.write_text(text(), encoding="utf-8")
+    return PAGE.relative_to(tables.ROOT)

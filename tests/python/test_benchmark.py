@@ -1,0 +1,128 @@
+"""The benchmark: scores against made-up references, errors of tables, folders that are whole, the page, measurements."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from benchmark import cases, column, folders, main, page, scores, scour
+from validation import SAVED
+
+
+def curve(at, value, error):
+    return folders.Curve(*(np.array(one, float) for one in (at, value, error)))
+
+
+def test_score_is_the_distance_in_errors():
+    reference = curve([0, 1, 2, 4], [1, 2, 3, 5], [0.5, 0.5, 0.5, 0.1])
+    same = scores.score(reference, curve([0, 4], [1, 5], [0, 0]))  # a straight line through all
+    assert same.distance == pytest.approx(0) and same.reached == 4 and same.word == "within"
+    above = scores.score(reference, curve([0, 2], [1.5, 3.5], [0, 0]))
+    assert above.distance == pytest.approx(1) and above.bias == pytest.approx(1) and (above.reached, above.points) == (3, 4)
+    below = scores.score(reference, curve([4, 5], [4.7, 9], [0, 0]))
+    assert below.distance == pytest.approx(3) and below.bias == pytest.approx(-3) and below.word == "missed"
+
+
+def test_score_of_what_is_not_reached_is_no_number():
+    found = scores.score(curve([0, 1], [1, 1], [1, 1]), curve([5, 6], [1, 1], [0, 0]))
+    assert np.isnan(found.distance) and found.reached == 0
+    assert np.isnan(scores.total({"a": found})) and scores.total({"a": found, "b": scores.Score(2, 2, 1, 1)}) == 2
+
+
+def test_single_number_and_quantity_without_reference():
+    references = {"a": curve([np.nan], [3], [0.5]), "b": curve([np.nan], [np.nan], [np.nan])}
+    found = scores.scores(references, {"a": curve([np.nan], [4], [0]), "b": curve([np.nan], [7], [0])})
+    assert list(found) == ["a"] and found["a"].distance == pytest.approx(2)
+
+
+@pytest.mark.parametrize("text, said", [
+    ("quantity,at,value\na,1,2\n", "results.csv:1: needs the columns spread"),
+    ("# x\nquantity,at,value,spread\na,1,2\n", "results.csv:3: has 3 fields, not 4"),
+    ("quantity,at,value,spread\nloose_front,1,two,\n", "results.csv:2: 'two' is not a number"),
+    ("quantity,at,value,spread\nloose_front,1,,\n", "results.csv:2: needs a value"),
+    ("quantity,at,value,spread\nlose_front,1,2,\n", "'lose_front' is not a quantity of column; there are loose_front"),
+    ("", "has no values")])
+def test_bad_results_are_told(tmp_path, capsys, text, said):
+    file = tmp_path / "results.csv"
+    file.write_text(text)
+    assert main(["column", "--score", str(file)]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_results_of_another_program_are_scored(tmp_path, capsys):
+    file, reference = tmp_path / "results.csv", folders.find("column").reference["loose_front"]
+    rows = [f"loose_front,{at},{value + 2 * error}," for at, value, error in
+            zip(reference.at, reference.value, reference.error)]
+    file.write_text("\n".join([folders.RESULT_COLUMNS, *rows]) + "\n")
+    assert main(["column", "--score", str(file)]) == 0
+    assert "loose_front              2.00   +2.00" in capsys.readouterr().out
+
+
+def test_unknown_case_and_options_are_told(capsys):
+    assert main(["columns", "--no-runs"]) == 2
+    assert "there is no benchmark case 'columns'; there are one-grain, " in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["--score", "x.csv"])
+
+
+@pytest.mark.parametrize("name", folders.names())
+def test_folder_is_whole(name):
+    case = folders.find(name)
+    statement = (case.path / "statement.md").read_text()
+    assert not [word for word in ("toml", "Barchan", "barchan ", "./", "grains.", "fluid.") if word in statement]
+    known = case.reference
+    for quantity, one in known.items():
+        assert f"`{quantity}`" in statement
+        assert np.isnan(one.value).all() or (one.error > 0).all() and one.source
+    assert isinstance(json.loads((case.path / "input.json").read_text()), dict)
+    for study in cases.MEASURES[name].STUDIES:
+        assert (folders.ROOT / f"configs/{study}.toml").exists()
+    for program in case.programs:
+        assert scores.scores(known, case.result(program)[1])
+
+
+def test_page_is_made_from_the_folders():
+    assert page.PAGE.read_text() == page.text(), "run ./barchan benchmark --keep"
+
+
+@pytest.mark.parametrize("name", ["one-grain", "flat-bed"])
+def test_results_from_the_validation_are_those_of_its_tables(name):
+    curves, _ = cases.measure(name, "nowhere", SAVED)
+    kept = folders.read_results(folders.find(name).result_file(), folders.find(name))
+    for quantity, one in curves.items():
+        assert kept[quantity].value == pytest.approx(one.value, rel=1e-3)
+
+
+def test_runs_are_averaged_over_what_all_reached():
+    mean = cases.together([{"a": ([0, 1, 2], [0, 1, 2]), "b": ([np.nan], [3])},
+                           {"a": ([0, 1], [2, 3]), "b": ([np.nan], [5])}])
+    assert mean["a"].at == pytest.approx([0, 1]) and mean["a"].value == pytest.approx([1, 2])
+    assert mean["a"].error == pytest.approx([2**0.5, 2**0.5]) and mean["b"].value == pytest.approx([4])
+
+
+def lattice(lengths, d):
+    """Grains of a cubic lattice in a box from the origin."""
+    axes = [(np.arange(round(length / d)) + 0.5) * d for length in lengths]
+    x = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    return SimpleNamespace(x=x, d=np.full(len(x), d))
+
+
+def test_front_and_heights_of_a_column():
+    d, wall = 1e-3, 5e-3
+    grains = lattice((0.02, 0.010, 0.004), d)
+    grains.x[:, 0] += wall
+    scales = SimpleNamespace(d=d, wall=wall, width=0.004)
+    assert column.front(grains, scales) == pytest.approx(0.02)
+    at, high = column.heights(grains, scales, 30)
+    assert high[:10] == pytest.approx(np.full(10, 0.010)) and high[10:] == pytest.approx(np.zeros(5))
+    assert at[:2] == pytest.approx([1e-3, 3e-3])
+
+
+def test_level_of_a_bed_leaves_out_grains_in_flight():
+    d = 1e-3
+    grains = lattice((0.02, 0.008, 0.004), d)
+    above = grains.x[:5] + [0, 0.009, 0]
+    grains = SimpleNamespace(x=np.concatenate([grains.x, above]), d=np.full(len(grains.x) + 5, d))
+    everything = np.ones(len(grains.d), bool)
+    assert scour.level(grains, everything, 0.02 * 0.004, d) == pytest.approx(0.008, abs=d)
