@@ -36,9 +36,9 @@ def parse(arguments):
     return options
 
 
-def table_of(case, found):
-    """Lines that say how far each quantity is from the reference."""
-    yield f"{case.name}: {case.title}"
+def table_of(case, program, found):
+    """Lines that say how far each quantity of a program is from the reference."""
+    yield f"{program}: {case.title}"
     yield f"  {'quantity':<20} {'distance':>8} {'bias':>7} {'points':>8}"
     for name, one in found.items():
         if one.reached:
@@ -66,19 +66,22 @@ def handle(name, options):
     """Measures and scores one case; its lines are printed."""
     case = folders.find(name)
     if options.score:
-        curves = folders.read_results(options.score, case)
+        results = {options.score.stem: folders.read_results(options.score, case)}
     else:
         if not options.no_runs and not run_studies(name):
             raise BarchanError(f"{name}: not all runs are done; the same command goes on")
-        curves, notes = cases.measure(name, options.runs, SAVED)
-        file = case.result_file() if options.keep else OUT / f"{name}.csv"
-        file.parent.mkdir(parents=True, exist_ok=True)
-        tables.write(file, notes, cases.lines(curves))
-        print(f"{name}: results in {file}")
-    found = scores.scores(case.reference, curves)
-    print("\n".join(table_of(case, found)))
-    if not options.score and not options.keep:
-        page.draw(case, {folders.OWN: curves}, OUT / f"{name}.svg")
+        results = {}
+        for program, (curves, notes) in cases.measure(name, options.runs, SAVED).items():
+            file = case.result_file(program) if options.keep else OUT / name / f"{program}.csv"
+            file.parent.mkdir(parents=True, exist_ok=True)
+            tables.write(file, notes, cases.lines(curves))
+            results[program] = curves
+            print(f"{name}: results in {file}")
+        if not options.keep:
+            page.draw(case, results, OUT / name / f"{name}.svg")
+            print(f"{name}: picture in {OUT / name / name}.svg")
+    for program, curves in results.items():
+        print("\n".join(table_of(case, program, scores.scores(case.reference, curves))))
 
 
 def main(arguments):

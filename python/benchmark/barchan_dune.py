@@ -8,7 +8,6 @@ import numpy as np
 from barchan.errors import MissingData
 
 STUDIES = ("benchmark/barchan",)
-RUNS = "benchmark/barchan"
 
 
 def measure_run(run):

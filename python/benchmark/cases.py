@@ -9,7 +9,7 @@ from barchan import Run
 from barchan.errors import MissingData
 from barchan.io.study_folder import gap_of
 from benchmark import barchan_dune, column, encounter, flat_bed, one_grain, scour
-from benchmark.folders import RESULT_COLUMNS, Curve
+from benchmark.folders import OWN, RESULT_COLUMNS, Curve
 from validation import tables
 
 MEASURES = {"one-grain": one_grain, "flat-bed": flat_bed, "column": column, "barchan": barchan_dune,
@@ -39,18 +39,30 @@ def together(found):
 
 
 def measure(name, runs, saved):
-    """Curves and notes of our results for a case; `runs`: folder of the runs, `saved`: of the validation's tables."""
+    """Name of the results -> (curves, notes) of a case; `runs`: folder of runs, `saved`: of the validation's tables.
+
+    Our results are those called as OWN; variants of a case, such as a finer mesh, have results of their own.
+    """
     module = MEASURES[name]
     if hasattr(module, "from_saved"):
-        return module.from_saved(saved)
-    found = finished(Path(runs) / module.RUNS)
+        return {OWN: module.from_saved(saved)}
+    found = [run for study in module.STUDIES for run in finished(Path(runs) / study)]
     if not found:
-        raise MissingData(f"needs a finished run in {Path(runs) / module.RUNS}: ./barchan benchmark {name}")
-    curves = together([module.measure_run(run) for run in found])
-    seconds = sum(run.summary.get("wall_seconds", 0) for run in found)
+        raise MissingData(f"needs a finished run in {Path(runs) / module.STUDIES[0]}: ./barchan benchmark {name}")
+    variant_of = getattr(module, "variant_of", lambda run: OWN)
+    variants = {}
+    for run in found:
+        variants.setdefault(variant_of(run), []).append(run)
+    return {variant: (together([module.measure_run(run) for run in of]), notes(name, module, of))
+            for variant, of in sorted(variants.items())}
+
+
+def notes(name, module, runs):
+    """What the table of the results of these runs says of itself."""
     about = tables.about(module.__doc__.split("\n")[0], f"./barchan benchmark {name}",
-                         json.loads((found[0].path / "run.json").read_text(encoding="utf-8")))
-    return curves, {**about, "runs": ", ".join(run.path.name for run in found), "minutes": f"{seconds / 60:.0f}"}
+                         json.loads((runs[0].path / "run.json").read_text(encoding="utf-8")))
+    seconds = sum(run.summary.get("wall_seconds", 0) for run in runs)
+    return {**about, "runs": ", ".join(run.path.name for run in runs), "minutes": f"{seconds / 60:.0f}"}
 
 
 def lines(curves):

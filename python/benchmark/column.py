@@ -1,9 +1,9 @@
 """column: a granular column that collapses in a viscous liquid (benchmark/column/statement.md).
 
 Front and heights are over those of the column at the start, pressures over the weight of its grains under water on the
-base, times over H/V: H is its height, V = (rho_s - rho_f) g d^2/(18 mu). The front is where the bed, seen from the wall,
-becomes thinner than a grain. The excess pressure is the mean over the probes at the base less that far away, in bins of
-`BIN` of the time.
+base, times over H/V: H is its height, V = (rho_s - rho_f) g d^2/(18 mu). The front is where the bed, seen from the
+wall, becomes thinner than a grain. The excess pressure is the mean over the probes at the base less that far away, in
+bins of `BIN` of the time.
 """
 
 import numpy as np
@@ -11,7 +11,6 @@ import numpy as np
 from barchan.errors import MissingData
 
 STUDIES = ("benchmark/column",)
-RUNS = "benchmark/column"
 LENGTH = 40  # of the column, in diameters
 PACKED = 0.6  # solid fraction that makes heights of volumes
 BIN = 0.04

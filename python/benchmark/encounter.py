@@ -5,7 +5,6 @@ import numpy as np
 from barchan.dune.encounters import MERGING, find
 
 STUDIES = ("benchmark/encounter",)
-RUNS = "benchmark/encounter"
 
 
 def measure_run(run):

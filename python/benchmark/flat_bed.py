@@ -24,7 +24,8 @@ def from_saved(folder):
         found[name] = [(np.nan, threshold.zero_of(threshold.load_of)(rows), np.nan)]
     found["turbulent_flux"] = [row for row in (flux_at(of, shields) for shields in SHIELDS) if row]
     found["laminar_flux"] = [row for row in (laminar_at(laminar, re) for re in sorted(REYNOLDS.values())) if row]
-    return {name: Curve(*np.array(rows, float).T) for name, rows in found.items()}, {**turbulent.notes, "minutes": "180"}
+    curves = {name: Curve(*np.array(rows, float).T) for name, rows in found.items()}
+    return curves, {**turbulent.notes, "minutes": "180"}
 
 
 def flux_at(table, shields):

@@ -21,13 +21,14 @@ class BenchmarkError(BarchanError):
 
 @dataclass
 class Curve:
-    """Values of one quantity at `at` (n), NaN for a single number, with errors or spreads (n)."""
+    """Values of a quantity at `at` (n), NaN for a single number; errors or spreads (n); `against`: what `at` is."""
 
     at: np.ndarray
     value: np.ndarray
     error: np.ndarray
     unit: str = ""
     source: str = ""
+    against: str = ""
 
 
 @dataclass
@@ -111,17 +112,18 @@ def read_curves(file, error):
         numbers = [number(row[name], file, at) for name in ("at", "value", error)]
         if not np.isfinite(numbers[1]) and error == "spread":
             raise BenchmarkError(f"{file}:{at}: needs a value")
-        rows.setdefault(row["quantity"], []).append((*numbers, row.get("unit", ""), row.get("source", "")))
+        words = [row.get(name, "") for name in ("unit", "source", "against")]
+        rows.setdefault(row["quantity"], []).append((*numbers, *words))
     if not rows:
         raise BenchmarkError(f"{file}: has no values")
     return {name: curve(of) for name, of in rows.items()}
 
 
 def curve(rows):
-    """Of rows (at, value, error, unit, source), in order of `at`."""
+    """Of rows (at, value, error, unit, source, against), in order of `at`."""
     rows = sorted(rows, key=lambda row: row[0])
     at, value, error = np.array([row[:3] for row in rows], float).T
-    return Curve(at, value, error, rows[0][3], rows[0][4])
+    return Curve(at, value, error, *rows[0][3:])
 
 
 def read_results(file, case):

@@ -1,5 +1,7 @@
 """The page docs/benchmark.md and its pictures, made from the folders of benchmark/."""
 
+import textwrap
+
 import numpy as np
 
 from barchan.figures import style
@@ -27,11 +29,12 @@ def draw(case, programs, file):
                 continue
             own, colour = curves[name], COLOURS[number % len(COLOURS)]
             where = np.full(own.at.size, 0.2 * (number + 1)) if single else own.at
-            axes.plot(where, own.value, "s" if single or own.at.size < 8 else "-", color=colour, ms=4, label=program)
+            few = single or own.at.size < 8
+            axes.plot(where, own.value, "s" if few else "-", color=colour, ms=4, label=program)
             known_spread = np.isfinite(own.error)
             if known_spread.any():
                 low, high = own.value - own.error, own.value + own.error
-                if single or own.at.size < 8:
+                if few:
                     axes.vlines(where[known_spread], low[known_spread], high[known_spread], color=colour)
                 else:
                     axes.fill_between(where, low, high, color=colour, alpha=0.2, lw=0)
@@ -39,7 +42,9 @@ def draw(case, programs, file):
             axes.set(xticks=[], xlim=(-0.5, 0.8))
         elif known.at.size > 4:
             axes.set_xlim(0, known.at[-1] * 1.05)
-        axes.set_title(name.replace("_", " "), fontsize=8)
+        unit = "" if known.unit in ("", "1") else f" ({known.unit})"
+        axes.set_title(name.replace("_", " ") + unit, fontsize=8)
+        axes.set_xlabel(known.against)
     for axes in flat[len(reference):]:
         axes.set_visible(False)
     flat[0].legend(fontsize=6)
@@ -50,8 +55,9 @@ def draw(case, programs, file):
 def section(case):
     """Lines about one case."""
     reference = case.reference
-    text = [f"## {case.title}", "", f"[Statement](../benchmark/{case.name}/statement.md), "
-            f"[reference](../benchmark/{case.name}/reference.csv). `./barchan benchmark {case.name}`", ""]
+    folder = f"../benchmark/{case.name}"
+    text = [f"## {case.title}", "", f"`./barchan benchmark {case.name}`. [Statement]({folder}/statement.md),",
+            f"[reference]({folder}/reference.csv).", ""]
     kept = {program: case.result(program) for program in case.programs}
     if not kept:
         return [*text, "No program has results yet.", ""]
@@ -62,28 +68,37 @@ def section(case):
             if name not in curves or np.isnan(reference[name].value).all():
                 continue
             one = scores.score(reference[name], curves[name])
-            told = f"{one.distance:.1f} | {one.bias:+.1f}" if one.reached else "- | -"
+            far = f"{one.distance:.1f} | {one.bias:+.1f}" if one.reached else "- | -"
             word = one.word if one.reached else "not reached"
-            text.append(f"| {name.replace('_', ' ')} | {program} | {told} | {one.reached} of {one.points} | {word} |")
+            text.append(f"| {name.replace('_', ' ')} | {program} | {far} | {one.reached} of {one.points} | {word} |")
     for program, (notes, curves) in kept.items():
         total = scores.total(scores.scores(reference, curves))
-        also = [f"{name.replace('_', ' ')} {curve.value[0]:.3g} {reference[name].unit}" + f" +- {curve.error[0]:.2g}" * bool(
-                np.isfinite(curve.error[0])) for name, curve in curves.items() if np.isnan(reference[name].value).all()]
-        text += ["", f"**Score of {program}: {total:.1f}.** {notes.get('minutes', '?')} core minutes; "
-                 f"commit {notes.get('commit', '?')}." + f" Also: {', '.join(also)}." * bool(also)]
+        also = [told(name, curve, reference[name].unit) for name, curve in curves.items()
+                if np.isnan(reference[name].value).all()]
+        line = (f"**Score of {program}: {total:.1f}.** {notes.get('minutes', '?')} core minutes; "
+                f"commit {notes.get('commit', '?')}." + f" Also: {', '.join(also)}." * bool(also))
+        text += ["", *textwrap.wrap(line, 120, break_long_words=False, break_on_hyphens=False)]
         remarks = case.result_file(program).with_suffix(".md")
         if remarks.exists():
             text += ["", remarks.read_text(encoding="utf-8").rstrip()]
     return [*text, ""]
 
 
+def told(name, curve, unit):
+    """A single number with its spread."""
+    spread = f" +- {curve.error[0]:.2g}" if np.isfinite(curve.error[0]) else ""
+    return f"{name.replace('_', ' ')} {curve.value[0]:.3g}{spread} {unit}".rstrip()
+
+
 def overview():
+    """Lines of the table of all scores."""
     rows = ["| case | program | score | core minutes |", "|---|---|---|---|"]
     for case in map(folders.find, folders.names()):
         for program in case.programs:
             notes, curves = case.result(program)
             total = scores.total(scores.scores(case.reference, curves))
-            rows.append(f"| [{case.name}](#{anchor(case.title)}) | {program} | {total:.1f} | {notes.get('minutes', '?')} |")
+            minutes = notes.get("minutes", "?")
+            rows.append(f"| [{case.name}](#{anchor(case.title)}) | {program} | {total:.1f} | {minutes} |")
     return rows
 
 

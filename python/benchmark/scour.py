@@ -1,14 +1,19 @@
 """scour: holes under a pipe and around an upright cylinder (benchmark/scour/statement.md).
 
-The depth under a pipe is that of the packed bed below its axis, from its level far upstream at the start, over the pipe's
-diameter D. Times are over T = D^2/sqrt((s - 1) g d^3) theta^(-5/3)/50 (Fredsoe, Sumer & Arnskov 1992), theta being the
-Shields number of the flow without the pipe, by Dean's law of friction.
+The depth under a pipe is that of the packed bed below its axis, from its level far upstream at the start, over the
+diameter D of the pipe. Times are over T = D^2/sqrt((s - 1) g d^3) theta^(-5/3)/50 (Fredsoe, Sumer & Arnskov 1992).
+theta is the Shields number of the flow without the pipe, by Dean's law of friction. Around a cylinder:
+docs/dune-measures.md.
 """
 
 import numpy as np
 
-STUDIES = ("benchmark/scour",)
-RUNS = "benchmark/scour"
+from barchan.dune.bodies import bodies_of
+from barchan.dune.scour import BedMap, diameter, history
+from barchan.dune.tracks import bed_of
+from benchmark.folders import OWN
+
+STUDIES = "benchmark/scour", "benchmark/scour-cylinder"
 WIDTH = 0.15  # half that of the strip below the axis, in D
 PACKED = 0.3  # solid fraction above which it is bed
 LAYER = 0.5  # height of the layers, in d
@@ -48,8 +53,24 @@ class Pipe:
         return self.bed - level(grains, within, 2 * WIDTH * self.diameter * self.size[2], self.d)
 
 
+def variant_of(run):
+    """The name of the results of a run: our own, or that of a variant of the pipe."""
+    return OWN if run.path.name == "base" else f"{OWN}-{run.path.name}"
+
+
+def around_cylinder(run):
+    """Depth of the hole over D and angle of its deepest point (degrees), means over the last third of a run."""
+    bodies, times = bodies_of(run), run.need_grains().times
+    frames = [run.frame(int(number)) for number in np.flatnonzero(times >= times[-1] * 2 / 3)]
+    late = history({one.time: BedMap(one, bed_of(run), bodies) for one in frames}, bodies[0])
+    return {"cylinder_depth": ([np.nan], [np.mean([one.depth for one in late]) / diameter(bodies[0])]),
+            "cylinder_angle": ([np.nan], [np.mean([one.angle for one in late])])}
+
+
 def measure_run(run):
     """Quantity -> (at, value) of one run."""
+    if run.config["body"][0].get("axis", "y") == "y":
+        return around_cylinder(run)
     pipe, times = Pipe(run), run.need_grains().times
     depth = np.array([pipe.depth(run.frame(number)) for number in range(times.size)])
     return {"pipe_depth": (times / pipe.time, depth / pipe.diameter)}
