@@ -9,6 +9,7 @@ bins of `BIN` of the time.
 import numpy as np
 
 from barchan.errors import MissingData
+from benchmark.folders import OWN
 
 STUDIES = ("benchmark/column",)
 LENGTH = 40  # of the column, in diameters
@@ -66,9 +67,14 @@ def excess(run):
     return whole, mean[np.isin(times, whole)] - far["p"][np.isin(far["t"], whole)]
 
 
+def variant_of(run):
+    """The name of the results of a run: our own, or those of a more viscous liquid."""
+    return f"{OWN}-viscous" if "viscous" in run.path.name else OWN
+
+
 def measure_run(run):
     """Quantity -> (at, value) of one run."""
-    scales, name = Scales(run), run.path.name.split("-r")[0]
+    scales, name = Scales(run), run.path.name.split("-")[0]
     times = run.need_grains().times
     place = np.array([front(run.frame(number), scales) for number in range(times.size)])
     t, pressure = excess(run)

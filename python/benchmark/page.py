@@ -45,9 +45,9 @@ def draw(case, programs, file):
         unit = "" if known.unit in ("", "1") else f" ({known.unit})"
         axes.set_title(name.replace("_", " ") + unit, fontsize=8)
         axes.set_xlabel(known.against)
+        axes.legend(fontsize=6)
     for axes in flat[len(reference):]:
         axes.set_visible(False)
-    flat[0].legend(fontsize=6)
     file.parent.mkdir(parents=True, exist_ok=True)
     style.save(figure, file.parent, file.stem, "Barchan, benchmark", kinds=("svg",))
 
