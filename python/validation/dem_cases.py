@@ -17,7 +17,7 @@ from barchan.figures import style
 from barchan.io.run_folder import RunFolder
 from barchan.io.study_folder import gap_of
 from barchan.io.tables import thin
-from validation import tables
+from validation import by_id, tables
 
 NAME = "dem_cases"
 COLUMNS = "what,case,x,y,expected"
@@ -30,13 +30,8 @@ class Tracks:
     """Times (n) and the places, velocities and spins (n, grains, 3) of the grains of a run, by id."""
 
     def __init__(self, run):
-        file, rows = run.need_grains(), []
-        with file.open() as content:
-            for _, name in file.frames:
-                order = np.argsort(content[name]["id"][:])
-                rows.append([content[name][what][:][order] for what in ("x", "u", "omega")])
-            self.d = content[file.frames[0][1]]["d"][:][np.argsort(content[file.frames[0][1]]["id"][:])]
-        self.x, self.u, self.omega = np.moveaxis(np.array(rows, float), 1, 0)
+        file = run.need_grains()
+        self.x, self.u, self.omega, self.d = by_id.motion(file)
         self.t, self.size, self.grains = file.times, run.config["domain"]["size"], run.config["grains"]
         self.gravity = -self.grains["gravity"][1]
         kinds = self.grains.get("kind") or [self.grains]

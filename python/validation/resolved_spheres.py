@@ -16,7 +16,7 @@ from barchan.figures import style
 from barchan.io.run_folder import RunFolder
 from barchan.io.study_folder import gap_of
 from barchan.io.tables import thin
-from validation import planes, tables
+from validation import by_id, planes, tables
 
 NAME = "resolved_spheres"
 COLUMNS = "what,case,x,y"
@@ -32,12 +32,8 @@ class Tracks:
     """Times (n) and the places, velocities and spins (n, grains, 3) of the grains of a run, by id."""
 
     def __init__(self, run):
-        file, rows = run.need_grains(), []
-        with file.open() as content:
-            for _, name in file.frames:
-                order = np.argsort(content[name]["id"][:])
-                rows.append([content[name][what][:][order] for what in ("x", "u", "omega")])
-        self.x, self.u, self.omega = np.moveaxis(np.array(rows, float), 1, 0)
+        file = run.need_grains()
+        self.x, self.u, self.omega, _ = by_id.motion(file)
         self.t, self.size = file.times, run.config["domain"]["size"]
         self.grains, self.fluid = run.config["grains"], run.config["fluid"]
         self.d = self.grains["sizes"][0][0] if self.grains.get("sizes") else run.frame(0).d[0]

@@ -10,6 +10,7 @@
 #include "tests/support/shared_folder.hpp"
 #include "tests/support/shared_grains.hpp"
 #include "tests/support/shared_grid.hpp"
+#include "tests/support/whole_run.hpp"
 
 namespace barchan {
 namespace {
@@ -17,12 +18,9 @@ namespace {
 /// Runs to the end of `config`; returns the last restart file.
 std::filesystem::path run(const Config& config, const std::filesystem::path& folder,
                           const std::optional<std::filesystem::path>& restart = {}) {
-  report::start(report::Shown::problems);
-  Simulation simulation(config, {.folder = folder, .restart = restart}, {});
-  EXPECT_EQ(simulation.run(), Outcome::done);
-  report::stop_log();
+  const auto last = test::run_to_end(config, folder, restart);
   MPI_Barrier(MPI_COMM_WORLD);
-  return *simulation.last_restart();
+  return last;
 }
 
 TEST(BedLoadOverRanks, ARestartKeepsTheBits) {

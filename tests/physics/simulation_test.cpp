@@ -13,27 +13,19 @@
 #include "src/run/simulation.hpp"
 #include "tests/support/coupled_case.hpp"
 #include "tests/support/same_state.hpp"
+#include "tests/support/whole_run.hpp"
 
 namespace barchan {
 namespace {
 
 using test::coupled_config;
 using test::expect_same_state;
-
-/// Runs `config` in `folder` and returns its final restart file.
-std::filesystem::path run(const Config& config, const std::filesystem::path& folder,
-                          const std::optional<std::filesystem::path>& restart = {}) {
-  report::start(report::Shown::problems);
-  Simulation simulation(config, {.folder = folder, .restart = restart}, {});
-  EXPECT_EQ(simulation.run(), Outcome::done);
-  report::stop_log();
-  return *simulation.last_restart();
-}
+using test::run_to_end;
 
 TEST(Simulation, TwoRunsAreBitwiseIdentical) {
   const TemporaryFolder scratch;
   const Config config = coupled_config();
-  expect_same_state(run(config, scratch / "a"), run(config, scratch / "b"));
+  expect_same_state(run_to_end(config, scratch / "a"), run_to_end(config, scratch / "b"));
 }
 
 TEST(Simulation, RestartContinuesBitwise) {
@@ -57,11 +49,11 @@ TEST(Simulation, RestartContinuesBitwise) {
                           .interval = 3 * whole.time.fluid_step}};
   Config half = whole;
   half.time.end = whole.time.end / 2;
-  const auto at_once = run(whole, scratch / "whole");
-  const auto middle = run(half, scratch / "parts");
+  const auto at_once = run_to_end(whole, scratch / "whole");
+  const auto middle = run_to_end(half, scratch / "parts");
   const auto touching = CheckpointReader(middle).array<std::int64_t>("grains/body_touching");
   EXPECT_GT(std::ranges::count_if(touching, [](std::int64_t bits) { return bits != 0; }), 0);
-  const auto in_parts = run(whole, scratch / "parts", middle);
+  const auto in_parts = run_to_end(whole, scratch / "parts", middle);
   expect_same_state(at_once, in_parts);
   for (const char* table :
        {"history.csv", "dune.csv", "bodies.csv", "probes.csv", "statistics.csv", "force_map.csv"}) {
@@ -84,9 +76,9 @@ TEST(Simulation, RestartOfAFlowAroundABodyContinuesBitwise) {
     whole.bodies = {post};
     Config half = whole;
     half.time.end = whole.time.end / 2;
-    const auto at_once = run(whole, scratch / "whole");
-    const auto middle = run(half, scratch / "parts");
-    expect_same_state(at_once, run(whole, scratch / "parts", middle));
+    const auto at_once = run_to_end(whole, scratch / "whole");
+    const auto middle = run_to_end(half, scratch / "parts");
+    expect_same_state(at_once, run_to_end(whole, scratch / "parts", middle));
   }
 }
 
@@ -108,9 +100,9 @@ TEST(Simulation, RestartInTheMiddleOfAFeedContinuesBitwise) {
     whole.grains->feed->amount = amount;
     Config half = whole;
     half.time.end = whole.time.end / 2;
-    const auto at_once = run(whole, scratch / "whole");
-    const auto middle = run(half, scratch / "parts");
-    expect_same_state(at_once, run(whole, scratch / "parts", middle));
+    const auto at_once = run_to_end(whole, scratch / "whole");
+    const auto middle = run_to_end(half, scratch / "parts");
+    expect_same_state(at_once, run_to_end(whole, scratch / "parts", middle));
     for (const char* table : {"history.csv", "dune.csv"})
       EXPECT_EQ(read_text(scratch / "whole" / table), read_text(scratch / "parts" / table));
     const CheckpointReader first(middle), last(at_once);
@@ -138,10 +130,10 @@ TEST(Simulation, AFeedBeginsAtARestartToo) {
   config.time.end = 20 * config.time.fluid_step;
   Config unfed = config;
   unfed.grains->feed.reset();
-  const auto middle = run(unfed, scratch / "run");
+  const auto middle = run_to_end(unfed, scratch / "run");
   config.grains->feed->start = config.time.end;
   config.time.end *= 2;
-  const CheckpointReader last(run(config, scratch / "run", middle));
+  const CheckpointReader last(run_to_end(config, scratch / "run", middle));
   EXPECT_GT(last.integer("feed/n_fed"), 0);
   EXPECT_DOUBLE_EQ(last.real("feed/due"), 2000 * 20 * config.time.fluid_step);
 }
@@ -166,7 +158,7 @@ TEST(Simulation, ANumberIsNeverGivenTwice) {
   ASSERT_EQ(first.state().grains->n, 2) << "one is meant to leave";
   config.grains->feed = FeedConfig{.rate = 1000, .x = 2e-3, .height = 2e-3};
   config.time.end *= 2;
-  const auto last = run(config, scratch / "run", first.last_restart());
+  const auto last = run_to_end(config, scratch / "run", first.last_restart());
   const CheckpointReader end(last);
   const auto numbers = end.array<std::int64_t>("grains/id");
   const std::int64_t fed = end.integer("feed/n_fed");
@@ -184,7 +176,7 @@ TEST(Simulation, AWindowThatFollowsRefusesGrainsAtItsEdge) {
   config.grains->sizes = {{2e-4, 3000}};
   config.grains->feed.reset();
   try {
-    run(config, scratch / "run");
+    run_to_end(config, scratch / "run");
     FAIL();
   } catch (const std::runtime_error& problem) {
     EXPECT_NE(std::string(problem.what()).find("half a box from the largest dune"),
@@ -198,9 +190,9 @@ TEST(Simulation, StartsDifferWhenTheSeedDoes) {
   const TemporaryFolder scratch;
   Config config = coupled_config();
   config.time.end = 2 * config.time.fluid_step;
-  const CheckpointReader a(run(config, scratch / "a"));
+  const CheckpointReader a(run_to_end(config, scratch / "a"));
   config.initial.seed = 2;
-  const CheckpointReader b(run(config, scratch / "b"));
+  const CheckpointReader b(run_to_end(config, scratch / "b"));
   EXPECT_NE(a.array<double>("fluid/u_x"), b.array<double>("fluid/u_x"));
 }
 
@@ -210,7 +202,7 @@ TEST(Simulation, GrainsThatLeaveAreCounted) {
   config.fluid->mean_velocity = 0.5;
   config.initial.pour->centre = {0.0101, 0.003};
   config.time.end = 80 * config.time.fluid_step;
-  const CheckpointReader end(run(config, scratch / "run"));
+  const CheckpointReader end(run_to_end(config, scratch / "run"));
   const auto inside = static_cast<std::int64_t>(end.array<std::int64_t>("grains/id").size());
   EXPECT_EQ(inside + end.integer("grains/n_left"), 200);
   EXPECT_GT(end.integer("grains/n_left"), 0) << "the case is meant to lose grains";
@@ -226,7 +218,7 @@ TEST(Simulation, AStateThatWentWrongStopsTheRunAndIsThereToLookAt) {
   config.restart.interval = config.time.fluid_step;
   std::string said;
   try {
-    run(config, scratch / "run");
+    run_to_end(config, scratch / "run");
   } catch (const std::runtime_error& problem) {
     said = problem.what();
   }
@@ -243,7 +235,7 @@ TEST(Simulation, AStateThatWentWrongStopsTheRunAndIsThereToLookAt) {
   EXPECT_EQ(status_in(scratch / "run/run.json"), "failed");
   EXPECT_TRUE(latest_checkpoint(scratch / "run")) << "the last good state must be kept";
   // A new run in the folder is not about that failure.
-  run(coupled_config(), scratch / "run");
+  run_to_end(coupled_config(), scratch / "run");
   EXPECT_FALSE(std::filesystem::exists(scratch / "run" / "failure_grains.h5"));
 }
 
@@ -256,7 +248,7 @@ TEST(Simulation, WritesEveryFileOfARun) {
   config.statistics.emplace();
   config.statistics->fields = config.statistics->grain_forces = true;
   config.statistics->interval = config.time.fluid_step;
-  run(config, scratch / "run");
+  run_to_end(config, scratch / "run");
   for (const char* name : {"config.toml", "run.json", "history.csv", "dune.csv", "fields.h5",
                            "fields.xdmf", "grains.h5", "grains.xdmf", "log.txt", "tracks.h5",
                            "statistics.csv", "flow_average.h5", "flow_average.xdmf"}) {
