@@ -13,6 +13,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+
 from barchan.errors import BarchanError, MissingData
 from benchmark import cases, folders, page, scores
 from validation import SAVED, tables
@@ -41,11 +43,13 @@ def table_of(case, program, found):
     yield f"{program}: {case.title}"
     yield f"  {'quantity':<20} {'distance':>8} {'bias':>7} {'points':>8}"
     for name, one in found.items():
-        if one.reached:
-            yield f"  {name:<20} {one.distance:8.2f} {one.bias:+7.2f} {one.reached:3d} of {one.points:<3d} {one.word}"
-        else:
-            yield f"  {name:<20} {'-':>8} {'-':>7} {one.reached:3d} of {one.points:<3d} not reached"
-    yield f"  {'score':<20} {scores.total(found):8.2f}   in errors of the reference; below 1: within them"
+        far = f"{one.distance:8.2f} {one.bias:+7.2f}" if one.reached else f"{'-':>8} {'-':>7}"
+        yield f"  {name:<20} {far} {one.reached:3d} of {one.points:<3d} {one.word}"
+    if np.isfinite(scores.total(found)):
+        yield (f"  {'score':<20} {scores.total(found):8.2f}   in errors of the reference; from "
+               f"{scores.share(found)}")
+    else:
+        yield "  no score: no point of the reference is reached"
 
 
 def run_studies(name):
@@ -88,11 +92,10 @@ def main(arguments):
     options = parse(arguments)
     try:
         if not options.names and not options.keep:
-            for name in folders.names():
-                case = folders.find(name)
-                for program in case.programs:
-                    total = scores.total(scores.scores(case.reference, case.result(program)[1]))
-                    print(f"{name:<10} {program:<10} {total:6.2f}   {case.title}")
+            for case in map(folders.find, folders.names()):
+                for program in case.programs or ["-"]:
+                    total = "     -" if program == "-" else f"{page.total_of(case, program):6.2f}"
+                    print(f"{case.name:<10} {program:<16} {total}   {case.title}")
             print("score: mean distance in errors of the reference; ./barchan benchmark NAME runs a case")
             return 0
         for name in options.names:

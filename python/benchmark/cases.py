@@ -7,7 +7,8 @@ import numpy as np
 
 from barchan import Run
 from barchan.errors import MissingData
-from barchan.io.study_folder import gap_of
+from barchan.io.study_folder import NAME as STUDY
+from barchan.io.study_folder import StudyFolder, gap_of
 from benchmark import barchan_dune, column, encounter, flat_bed, one_grain, scour
 from benchmark.folders import OWN, RESULT_COLUMNS, Curve
 from validation import tables
@@ -17,9 +18,11 @@ MEASURES = {"one-grain": one_grain, "flat-bed": flat_bed, "column": column, "bar
 
 
 def finished(folder):
-    """The finished runs of a study's folder, each once, in the order of their names."""
-    paths = sorted(file.parent for file in Path(folder).glob("*/run.json"))
-    return [Run(path) for path in paths if gap_of(path) is None]
+    """The finished runs of the cases of a study; none where there is no such folder."""
+    if not (Path(folder) / STUDY).exists():
+        return []
+    runs = [run for case in StudyFolder(folder).cases for run in case.runs]
+    return [Run(run.path) for run in runs if gap_of(run.path) is None]
 
 
 def together(found):

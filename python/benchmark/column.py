@@ -9,11 +9,10 @@ bins of `BIN` of the time.
 import numpy as np
 
 from barchan.errors import MissingData
-from benchmark.folders import OWN
 
 STUDIES = ("benchmark/column",)
 LENGTH = 40  # of the column, in diameters
-PACKED = 0.6  # solid fraction that makes heights of volumes
+PACKED = 0.6  # solid fraction that makes depths of volumes
 BIN = 0.04
 CELLS = 2.0  # diameters along x in which a height is measured
 PROFILE_TIMES = {"loose": 0.283, "dense": 0.969}  # 4 and 12 s of the experiment
@@ -34,25 +33,28 @@ class Scales:
 
 
 def heights(grains, scales, reach):
-    """Places from the wall [m] and heights of the surface [m]: that of the highest grains, over bins of CELLS."""
-    edges = np.arange(0, reach + CELLS / 2, CELLS) * scales.d
-    place = np.asarray(grains.x[:, 0], float) - scales.wall
-    top = np.asarray(grains.x[:, 1] + grains.d / 2, float)
-    bins = np.floor(place / (CELLS * scales.d)).astype(int)
-    found = [np.percentile(top[bins == number], 95) if np.sum(bins == number) > 3 else 0.0
-             for number in range(len(edges) - 1)]
-    return (edges[1:] + edges[:-1]) / 2, np.array(found)
+    """Places from the wall [m] and heights [m]: the mean of the highest grains of squares of CELLS across the slice."""
+    cell = CELLS * scales.d
+    shape = round(reach / CELLS), max(1, round(scales.width / cell))
+    along = np.floor((np.asarray(grains.x[:, 0], float) - scales.wall) / cell).astype(int)
+    across = np.floor(np.asarray(grains.x[:, 2], float) / scales.width * shape[1]).astype(int) % shape[1]
+    seen, top = (along >= 0) & (along < shape[0]), np.zeros(shape)
+    np.maximum.at(top, (along[seen], across[seen]), np.asarray(grains.x[seen, 1] + grains.d[seen] / 2, float))
+    return (np.arange(shape[0]) + 0.5) * cell, top.mean(axis=1)
 
 
 def front(grains, scales):
-    """Distance of the front from the wall [m]."""
+    """Distance of the front from the wall [m]: where a line through the depths of the bins falls below a grain."""
     volume = np.pi / 6 * np.asarray(grains.d, float)**3
     place = np.asarray(grains.x[:, 0], float) - scales.wall
     bins = np.floor(place / (CELLS * scales.d)).astype(int)
     inside = bins >= 0
     depth = np.bincount(bins[inside], volume[inside]) / (PACKED * CELLS * scales.d * scales.width)
-    thin = np.flatnonzero(depth < scales.d)
-    return (thin[0] if thin.size else depth.size) * CELLS * scales.d
+    depth = np.append(depth, 0.0)
+    thin = int(np.flatnonzero(depth < scales.d)[0])
+    before = depth[thin - 1] if thin > 0 else scales.d
+    share = (before - scales.d) / (before - depth[thin]) if before > depth[thin] else 0.0
+    return (thin - 0.5 + share) * CELLS * scales.d
 
 
 def excess(run):
@@ -65,11 +67,6 @@ def excess(run):
     whole = times[(count == count.max()) & np.isin(times, far["t"])]
     mean = np.bincount(at, base["p"]) / count
     return whole, mean[np.isin(times, whole)] - far["p"][np.isin(far["t"], whole)]
-
-
-def variant_of(run):
-    """The name of the results of a run: our own, or those of a more viscous liquid."""
-    return f"{OWN}-viscous" if "viscous" in run.path.name else OWN
 
 
 def measure_run(run):

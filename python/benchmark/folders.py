@@ -93,9 +93,11 @@ def read_curves(file, error):
     """
     rows, header = {}, None
     try:
-        lines = Path(file).read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as problem:
-        raise BenchmarkError(f"cannot read {file}: {problem}") from None
+        lines = Path(file).read_text(encoding="utf-8-sig").splitlines()
+    except OSError as problem:
+        raise BenchmarkError(f"cannot read {file}: {problem.strerror}") from None
+    except UnicodeDecodeError:
+        raise BenchmarkError(f"cannot read {file}: it is not UTF-8") from None
     for at, line in enumerate(lines, 1):
         fields = [field.strip() for field in line.split(",")]
         if not line.strip() or line.startswith("#"):
@@ -132,4 +134,18 @@ def read_results(file, case):
     for name in found:
         if name not in known:
             raise BenchmarkError(f"{file}: '{name}' is not a quantity of {case.name}; there are {', '.join(known)}")
+        check(file, name, found[name], known[name])
     return found
+
+
+def check(file, name, one, reference):
+    """Refuses a curve without places, two values at one place, and a negative spread."""
+    single = np.isnan(reference.at).all()
+    if single and one.value.size > 1:
+        raise BenchmarkError(f"{file}: {name} is one number, not {one.value.size}")
+    if not single and np.isnan(one.at).any():
+        raise BenchmarkError(f"{file}: {name} needs `at` in each line: {reference.against}")
+    if np.unique(one.at).size < one.at.size:
+        raise BenchmarkError(f"{file}: {name} has two values at one place")
+    if (one.error < 0).any():
+        raise BenchmarkError(f"{file}: {name} has a negative spread")

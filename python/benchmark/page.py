@@ -63,19 +63,20 @@ def section(case):
         return [*text, "No program has results yet.", ""]
     text += [f"![Reference and results](benchmark/{case.name}.svg)", "",
              "| quantity | program | distance | bias | points | |", "|---|---|---|---|---|---|"]
-    for name in reference:
-        for program, (_, curves) in kept.items():
-            if name not in curves or np.isnan(reference[name].value).all():
-                continue
-            one = scores.score(reference[name], curves[name])
-            far = f"{one.distance:.1f} | {one.bias:+.1f}" if one.reached else "- | -"
-            word = one.word if one.reached else "not reached"
-            text.append(f"| {name.replace('_', ' ')} | {program} | {far} | {one.reached} of {one.points} | {word} |")
+    found = {program: scores.scores(reference, curves) for program, (_, curves) in kept.items()}
+    for name in next(iter(found.values())):
+        for program, of in found.items():
+            one = of[name]
+            if one.given or program == folders.OWN:
+                far = f"{one.distance:.1f} | {one.bias:+.1f}" if one.reached else "- | -"
+                points = f"{one.reached} of {one.points}"
+                text.append(f"| {name.replace('_', ' ')} | {program} | {far} | {points} | {one.word} |")
     for program, (notes, curves) in kept.items():
-        total = scores.total(scores.scores(reference, curves))
+        total = scores.total(found[program])
         also = [told(name, curve, reference[name].unit) for name, curve in curves.items()
                 if np.isnan(reference[name].value).all()]
-        line = (f"**Score of {program}: {total:.1f}.** {notes.get('minutes', '?')} core minutes; "
+        line = (f"**Score of {program}: {total:.1f}**, from {scores.share(found[program])}. "
+                f"{notes.get('minutes', '?')} core minutes; "
                 f"commit {notes.get('commit', '?')}." + f" Also: {', '.join(also)}." * bool(also))
         text += ["", *textwrap.wrap(line, 120, break_long_words=False, break_on_hyphens=False)]
         remarks = case.result_file(program).with_suffix(".md")
@@ -95,11 +96,14 @@ def overview():
     rows = ["| case | program | score | core minutes |", "|---|---|---|---|"]
     for case in map(folders.find, folders.names()):
         for program in case.programs:
-            notes, curves = case.result(program)
-            total = scores.total(scores.scores(case.reference, curves))
-            minutes = notes.get("minutes", "?")
+            minutes, total = case.result(program)[0].get("minutes", "?"), total_of(case, program)
             rows.append(f"| [{case.name}](#{anchor(case.title)}) | {program} | {total:.1f} | {minutes} |")
     return rows
+
+
+def total_of(case, program):
+    """The score of a program that has results for a case."""
+    return scores.total(scores.scores(case.reference, case.result(program)[1]))
 
 
 def anchor(title):

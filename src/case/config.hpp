@@ -29,6 +29,7 @@ struct HeapConfig {
   std::string kind = {};              // a name of [[grains.kind]]; empty: all of them
   std::vector<SizeClass> sizes = {};  // empty: grains.sizes, or of its kind
   double drop_height = 0;             // lowest grain above what lies there [m]
+  double spacing = 1;                 // of the lattice, over the closest
   std::uint64_t seed = 1;
   bool operator==(const HeapConfig&) const = default;
 };

@@ -64,7 +64,7 @@ double gap(const HeapConfig& a, const HeapConfig& b, const Config& c) {
   const double x = distance(a.centre[0], b.centre[0], c.size[0], is_periodic_x(c));
   const double z = distance(a.centre[1], b.centre[1], c.size[2],
                             c.grains->boundary_z == GrainBoundaryZ::periodic);
-  const double grain = 0.5 * (poured_spacing(a.sizes) + poured_spacing(b.sizes));
+  const double grain = 0.5 * (poured_spacing(a) + poured_spacing(b));
   return (ridge ? x : std::hypot(x, z)) - a.radius - b.radius - grain;
 }
 

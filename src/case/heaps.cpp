@@ -17,9 +17,11 @@ double poured_spacing(const std::vector<SizeClass>& sizes) {
   return 1.01 * widest;
 }
 
+double poured_spacing(const HeapConfig& heap) { return heap.spacing * poured_spacing(heap.sizes); }
+
 double poured_height(const HeapConfig& heap, const std::array<double, 3>& domain) {
   const auto n = static_cast<double>(count_of(heap.sizes));
-  const double volume = n * std::pow(poured_spacing(heap.sizes), 3) / std::numbers::sqrt2;
+  const double volume = n * std::pow(poured_spacing(heap), 3) / std::numbers::sqrt2;
   if (heap.shape == HeapShape::bed) return volume / (domain[0] * domain[2]);
   if (heap.shape == HeapShape::ridge) return volume / (heap.radius * domain[2]);
   return 3 * volume / (std::numbers::pi * heap.radius * heap.radius);

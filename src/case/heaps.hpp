@@ -12,6 +12,8 @@ namespace barchan {
 /// Distance [m] between poured grains, which stand on a close-packed lattice: 1 % more than the
 /// largest.
 double poured_spacing(const std::vector<SizeClass>& sizes);
+/// The same in a heap, with its `spacing` [m].
+double poured_spacing(const HeapConfig& heap);
 /// Approximate height [m] to which the grains of a heap fill their cone, ridge or bed.
 double poured_height(const HeapConfig& heap, const std::array<double, 3>& domain);
 /// Approximate height [m] of the highest grain of all heaps; those after a bed stand on it.

@@ -201,6 +201,9 @@ void add_heap_keys(AddKey& key, const char* default_centre) {
       "radius of the foot of a cone, half the width of a ridge; required for both");
   key("drop_height", &H::drop_height, between(0, 1e6), "m",
       "height of the lowest grain above the floor, or above the bed below the heap");
+  key("spacing", &H::spacing, between(1, 10), "",
+      "distance of grains as they are poured, over the closest; each is displaced at random within "
+      "the gap. At 1 a bed keeps layers of the lattice; 1.25: a random bed");
   key("seed", &H::seed, "random seed of the order and the jitter of the grains");
 }
 

@@ -22,6 +22,15 @@ double uniform(std::mt19937_64& generator) {
   return static_cast<double>(generator() >> 11) * 0x1.0p-53;
 }
 
+/// A random place in a sphere about the origin.
+Vec3 within_sphere(double radius, std::mt19937_64& generator) {
+  const auto side = [&] { return 2 * uniform(generator) - 1; };
+  for (;;) {
+    const Vec3 x{side(), side(), side()};
+    if (norm(x) < 1) return radius * x;
+  }
+}
+
 template <class Item>
 void shuffle(std::vector<Item>& items, std::mt19937_64& generator) {
   for (std::size_t n = items.size(); n > 1; --n) {
@@ -151,7 +160,7 @@ std::vector<SizeClass> shuffled(const std::vector<SizeClass>& sizes, std::mt1993
 /// The n lowest sites of a heap, from its axis outward and upward.
 std::vector<Site> lowest_sites(const HeapConfig& config, const Heap& heap, std::size_t n,
                                const std::array<double, 3>& domain, std::mt19937_64& generator) {
-  const double spacing = poured_spacing(config.sizes);
+  const double spacing = poured_spacing(config);
   const double highest = 1e3 * domain[1];
   const double first = 1.2 * poured_height(config, domain) + 2 * spacing;
   std::vector<Site> sites;
@@ -181,13 +190,14 @@ void add_heap(const HeapConfig& config, const Heap& heap, const std::array<doubl
               InitialGrains& grains) {
   std::mt19937_64 generator(config.seed);
   const std::vector<SizeClass> poured = shuffled(config.sizes, generator);
-  const double spacing = poured_spacing(config.sizes);
+  const double spacing = poured_spacing(config), gap = spacing - poured_spacing(config.sizes);
   const auto sites = lowest_sites(config, heap, poured.size(), domain, generator);
   for (std::size_t g = 0; g < poured.size(); ++g) {
     const auto jitter = [&] { return 0.004 * (uniform(generator) - 0.5) * spacing; };
     const Vec3 x = heap.centre + sites[g].x;
     grains.add(static_cast<std::int64_t>(grains.size()) + 1, poured[g].diameter,
-               {x.x + jitter(), x.y + jitter(), x.z + jitter()});
+               Vec3{x.x + jitter(), x.y + jitter(), x.z + jitter()} +
+                   (gap > 0 ? within_sphere(gap / 2, generator) : Vec3{}));
     grains.kind.push_back(static_cast<std::uint8_t>(poured[g].kind));
   }
 }
@@ -197,7 +207,7 @@ void pack(const HeapConfig& config, const Heap& heap, std::size_t begin, Initial
   // Density of the packing: 0.64 of the volume, as in a heap. Displaced so far, a third of the 12
   // neighbours touch.
   constexpr double lattice = 1.05, displacement = 0.1;
-  const double d = mean_diameter(config.sizes), closer = lattice * d / poured_spacing(config.sizes);
+  const double d = mean_diameter(config.sizes), closer = lattice * d / poured_spacing(config);
   std::mt19937_64 generator(config.seed);
   const auto displaced = [&] { return displacement * d * (2 * uniform(generator) - 1); };
   for (std::size_t g = begin; g < grains.size(); ++g) {

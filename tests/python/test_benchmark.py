@@ -36,12 +36,28 @@ def test_single_number_and_quantity_without_reference():
     assert list(found) == ["a"] and found["a"].distance == pytest.approx(2)
 
 
+def test_a_score_says_what_it_is_made_of():
+    references = {"a": curve([np.nan], [3], [0.5]), "c": curve([0, 1], [1, 1], [1, 1])}
+    found = scores.scores(references, {"a": curve([np.nan], [3.5], [0])})
+    assert found["a"].word == "within" and found["c"].word == "not given"
+    assert scores.share(found) == "1 of 2 quantities, 1 of 3 points" and scores.total(found) == pytest.approx(1)
+
+
+def test_a_curve_may_end_a_little_before_the_last_point():
+    reference = curve([0, 1, 2], [0, 0, 0], [1, 1, 1])
+    assert scores.score(reference, curve([0.01, 1.99], [1, 1], [0, 0])).reached == 3
+    assert scores.score(reference, curve([0.05, 1.95], [1, 1], [0, 0])).reached == 1
+
+
 @pytest.mark.parametrize("text, said", [
     ("quantity,at,value\na,1,2\n", "results.csv:1: needs the columns spread"),
     ("# x\nquantity,at,value,spread\na,1,2\n", "results.csv:3: has 3 fields, not 4"),
     ("quantity,at,value,spread\nloose_front,1,two,\n", "results.csv:2: 'two' is not a number"),
     ("quantity,at,value,spread\nloose_front,1,,\n", "results.csv:2: needs a value"),
     ("quantity,at,value,spread\nlose_front,1,2,\n", "'lose_front' is not a quantity of column; there are loose_front"),
+    ("quantity,at,value,spread\nloose_front,,2,\n", "loose_front needs `at` in each line: t V/H"),
+    ("quantity,at,value,spread\nloose_front,1,2,\nloose_front,1,3,\n", "loose_front has two values at one place"),
+    ("quantity,at,value,spread\nloose_front,1,2,-1\n", "loose_front has a negative spread"),
     ("", "has no values")])
 def test_bad_results_are_told(tmp_path, capsys, text, said):
     file = tmp_path / "results.csv"
@@ -113,7 +129,8 @@ def test_front_and_heights_of_a_column():
     grains = lattice((0.02, 0.010, 0.004), d)
     grains.x[:, 0] += wall
     scales = SimpleNamespace(d=d, wall=wall, width=0.004)
-    assert column.front(grains, scales) == pytest.approx(0.02)
+    depth = np.pi / 6 / 0.6 * 0.010  # of the last bin; the next is empty
+    assert column.front(grains, scales) == pytest.approx(0.019 + 0.002 * (1 - d / depth))
     at, high = column.heights(grains, scales, 30)
     assert high[:10] == pytest.approx(np.full(10, 0.010)) and high[10:] == pytest.approx(np.zeros(5))
     assert at[:2] == pytest.approx([1e-3, 3e-3])

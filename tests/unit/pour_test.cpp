@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <fstream>
 #include <numbers>
 #include <random>
@@ -32,6 +33,35 @@ TEST(Pour, PlacesEveryGrainInsideTheConeWithoutOverlap) {
     EXPECT_LT(std::hypot(g.x[a].x - 0.01, g.x[a].z - 0.006), 0.00301);
     for (std::size_t b = 0; b < a; ++b) {
       ASSERT_GT(norm(g.x[a] - g.x[b]), (g.diameter[a] + g.diameter[b]) / 2);
+    }
+  }
+}
+
+/// How much of the grains lies in layers `apart` (1: all).
+double layered(const InitialGrains& g, double apart) {
+  std::complex<double> sum = 0;
+  for (const Vec3& x : g.x) sum += std::polar(1.0, 2 * std::numbers::pi * x.y / apart);
+  return std::abs(sum) / static_cast<double>(g.size());
+}
+
+TEST(Pour, ALooseBedHasNoLayersAndNoOverlap) {
+  const std::array<double, 3> size{0.006, 0.02, 0.004};
+  HeapConfig bed{.shape = HeapShape::bed, .sizes = kSizes};
+  const double layer = 1.01 * 2.5e-4 * std::sqrt(2.0 / 3);
+  EXPECT_GT(layered(pour_grains({bed}, size), layer), 0.99);
+  bed.spacing = 1.5;
+  const InitialGrains g = pour_grains({bed}, size);
+  ASSERT_EQ(g.size(), 1000u);
+  // Of a displacement that is uniform in a sphere of a quarter of the distance, over the waves.
+  const double k = 2 * std::numbers::pi / (1.5 * layer) * 0.25 * 1.01 * 2.5e-4;
+  const double exact = 3 * (std::sin(k) - k * std::cos(k)) / (k * k * k);
+  EXPECT_NEAR(layered(g, 1.5 * layer), exact, 0.03);
+  for (std::size_t a = 0; a < g.size(); ++a) {
+    EXPECT_GT(g.x[a].y, g.diameter[a] / 2);
+    for (std::size_t b = 0; b < a; ++b) {
+      const Vec3 d = g.x[a] - g.x[b];
+      ASSERT_GT(norm(Vec3{std::remainder(d.x, size[0]), d.y, std::remainder(d.z, size[2])}),
+                (g.diameter[a] + g.diameter[b]) / 2);
     }
   }
 }
