@@ -19,7 +19,8 @@ from barchan.errors import BarchanError, MissingData
 from benchmark import cases, folders, page, scores
 from validation import SAVED, tables
 
-OUT = Path("runs/benchmark")
+RUNS = Path("runs")
+OUT = RUNS / "benchmark"
 
 
 def parse(arguments):
@@ -27,7 +28,8 @@ def parse(arguments):
                                      description="Runs, measures and scores the cases of benchmark/.")
     parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(folders.names()))
     parser.add_argument("--no-runs", action="store_true", help="measure the finished runs that are there")
-    parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="folder of the runs (runs)")
+    parser.add_argument("--runs", type=Path, default=RUNS, metavar="DIR",
+                        help="measure the finished runs of this folder (default: run into and measure runs)")
     parser.add_argument("--score", type=Path, metavar="FILE", help="score this table of results; runs nothing")
     parser.add_argument("--keep", action="store_true", help="keep the results in benchmark/NAME/results; make the page")
     options = parser.parse_args(arguments)
@@ -72,7 +74,10 @@ def handle(name, options):
     if options.score:
         results = {options.score.stem: folders.read_results(options.score, case)}
     else:
-        if not options.no_runs and not run_studies(name):
+        saved = cases.from_validation(name)
+        if saved:
+            print(f"{name}: from the tables that ./barchan plot validation --keep makes of {', '.join(saved)}")
+        elif not options.no_runs and options.runs == RUNS and not run_studies(name):
             raise BarchanError(f"{name}: not all runs are done; the same command goes on")
         results = {}
         for program, (curves, notes) in cases.measure(name, options.runs, SAVED).items():

@@ -25,6 +25,12 @@ def finished(folder):
     return [Run(run.path) for run in runs if gap_of(run.path) is None]
 
 
+def from_validation(name):
+    """The studies of a case that is measured from the tables of the validation; none of another case."""
+    module = MEASURES[name]
+    return module.STUDIES if hasattr(module, "from_saved") else ()
+
+
 def together(found):
     """Quantity -> Curve of the mean over runs and its standard deviation, from the (at, value) of each run."""
     curves = {}
@@ -64,7 +70,7 @@ def notes(name, module, runs):
     """What the table of the results of these runs says of itself."""
     about = tables.about(module.__doc__.split("\n")[0], f"./barchan benchmark {name}",
                          json.loads((runs[0].path / "run.json").read_text(encoding="utf-8")))
-    seconds = sum(run.summary.get("wall_seconds", 0) for run in runs)
+    seconds = sum(run.summary["wall_seconds"] * run.summary["threads"] * run.summary["ranks"] for run in runs)
     return {**about, "runs": ", ".join(run.path.name for run in runs), "minutes": f"{seconds / 60:.0f}"}
 
 

@@ -64,7 +64,13 @@ def around_cylinder(run):
     frames = [run.frame(int(number)) for number in np.flatnonzero(times >= times[-1] * 2 / 3)]
     late = history({one.time: BedMap(one, bed_of(run), bodies) for one in frames}, bodies[0])
     return {"cylinder_depth": ([np.nan], [np.mean([one.depth for one in late]) / diameter(bodies[0])]),
-            "cylinder_angle": ([np.nan], [np.mean([one.angle for one in late])])}
+            "cylinder_angle": ([np.nan], [mean_angle([one.angle for one in late])])}
+
+
+def mean_angle(angles):
+    """The direction of the mean of unit vectors, all in degrees, 0 to 360."""
+    mean = np.mean(np.exp(1j * np.radians(angles)))
+    return float(np.degrees(np.angle(mean)) % 360)
 
 
 def measure_run(run):

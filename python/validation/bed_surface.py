@@ -36,7 +36,7 @@ def of(run):
 
 
 def stress_in_time(bed, run, acceleration):
-    """Total stress [Pa] at the surface, for each row of history.csv, of a flow below a free top that speeds up as a whole.
+    """Total stress [Pa] at the surface, for each row of history.csv, below a free top in a flow that speeds up.
 
     The momentum of all that is above it: G (H - surface) less what accelerates the water there. Grains are few.
     """

@@ -162,7 +162,8 @@ void check_heaps(const Config& c, Findings& found) {
     const double top = poured_top({heaps.begin(), after}, c.size);
     found.error_if(top > c.size[1] && top > highest,
                    {key("radius"), key("drop_height"), "domain.size"},
-                   "must be larger: the heap would reach about {:.3g} m, above the domain", top);
+                   "must be larger: the heap would reach about {:.3g} m, above the domain{}", top,
+                   heaps[n].spacing > 1 ? "; or take a smaller spacing" : "");
     highest = std::max(highest, top);
   }
 }

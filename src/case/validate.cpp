@@ -185,6 +185,9 @@ void check_bed_load(const Config& c, Findings& found) {
                  "must be absent with frozen grains: none moves");
   found.error_if(!c.bodies.empty(), {"statistics.bed_load", "body"},
                  "must be absent with bodies: what they take of the stress is not known by height");
+  found.error_if(c.grains->boundary_x == GrainBoundaryX::wall,
+                 {"statistics.bed_load", "grains.boundary_x"},
+                 "must be absent with walls at the ends: they take a part of the stress");
   found.error_if(c.grains->gravity[1] >= 0, {"statistics.bed_load", "grains.gravity"},
                  "must come with gravity towards the floor");
 }

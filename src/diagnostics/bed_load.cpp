@@ -136,6 +136,8 @@ std::vector<BedLoadRecord> BedLoad::table() const {
     volume += h * layer.volume / n, mass += h * layer.mass / n;
     bed.q += h * layer.flux / n, mass_flux += h * layer.momentum / n;
   }
+  const double along =
+      bed.q < 0 ? -1 : 1;  // grains that go upstream make the energy in their sense
   std::size_t peak = lines.size();
   for (std::size_t k = 0; k < lines.size(); ++k) {
     // Layers beside this one, as far as there are grains in them.
@@ -144,7 +146,8 @@ std::vector<BedLoadRecord> BedLoad::table() const {
     if (layers_[k].volume > 0 && upper > lower)
       lines[k].shear_rate = (lines[upper].grain_velocity - lines[lower].grain_velocity) /
                             (h * static_cast<double>(upper - lower));
-    lines[k].production = fluctuation_production(lines[k].particle_pressure, lines[k].shear_rate);
+    lines[k].production =
+        fluctuation_production(lines[k].particle_pressure, along * lines[k].shear_rate);
     const double largest = peak < lines.size() ? lines[peak].production : 0;
     if (lines[k].production > largest) peak = k;
   }
@@ -199,6 +202,8 @@ void BedLoad::save(CheckpointWriter& file) const {
 void BedLoad::load(const CheckpointReader& file) {
   if (!file.has("statistics/bed_load")) return;
   const auto numbers = file.array<double>("statistics/bed_load");
+  if (numbers.size() <= 6 || numbers.size() % 6 != 0 || !(numbers[0] > 0))
+    file.fail("statistics/bed_load has not what bedload.csv is made of");
   sums_ = {.d = numbers[0],
            .n_samples = numbers[1],
            .start = numbers[2],

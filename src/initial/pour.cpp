@@ -179,8 +179,7 @@ std::vector<Site> lowest_sites(const HeapConfig& config, const Heap& heap, std::
   if (fits) return sites;
   throw std::runtime_error(
       fmt::format("the poured heap{} of {} grains does not fit in the domain{}: change its radius, "
-                  "its centre or "
-                  "domain.size",
+                  "its centre, its spacing or domain.size",
                   config.name.empty() ? "" : fmt::format(" \"{}\"", config.name), n,
                   heap.bodies.n > 0 ? " beside the bodies" : ""));
 }
@@ -190,14 +189,14 @@ void add_heap(const HeapConfig& config, const Heap& heap, const std::array<doubl
               InitialGrains& grains) {
   std::mt19937_64 generator(config.seed);
   const std::vector<SizeClass> poured = shuffled(config.sizes, generator);
-  const double spacing = poured_spacing(config), gap = spacing - poured_spacing(config.sizes);
+  const double closest = poured_spacing(config.sizes), gap = poured_spacing(config) - closest;
   const auto sites = lowest_sites(config, heap, poured.size(), domain, generator);
   for (std::size_t g = 0; g < poured.size(); ++g) {
-    const auto jitter = [&] { return 0.004 * (uniform(generator) - 0.5) * spacing; };
-    const Vec3 x = heap.centre + sites[g].x;
-    grains.add(static_cast<std::int64_t>(grains.size()) + 1, poured[g].diameter,
-               Vec3{x.x + jitter(), x.y + jitter(), x.z + jitter()} +
-                   (gap > 0 ? within_sphere(gap / 2, generator) : Vec3{}));
+    const auto jitter = [&] { return 0.004 * (uniform(generator) - 0.5) * closest; };
+    Vec3 x = heap.centre + sites[g].x;
+    x = Vec3{x.x + jitter(), x.y + jitter(), x.z + jitter()};
+    if (gap > 0) x += within_sphere(gap / 2, generator);
+    grains.add(static_cast<std::int64_t>(grains.size()) + 1, poured[g].diameter, x);
     grains.kind.push_back(static_cast<std::uint8_t>(poured[g].kind));
   }
 }
@@ -226,9 +225,11 @@ InitialGrains pour(const std::vector<HeapConfig>& heaps, const std::array<double
   double ground = 0;  // top of the beds [m]
   for (std::size_t n = 0; n < heaps.size(); ++n) {
     const std::size_t begin = grains.size();
-    const Heap heap(heaps[n], domain, bodies, ground);
-    add_heap(heaps[n], heap, domain, grains);
-    if (packed) pack(heaps[n], heap, begin, grains);
+    HeapConfig config = heaps[n];
+    if (packed) config.spacing = 1;
+    const Heap heap(config, domain, bodies, ground);
+    add_heap(config, heap, domain, grains);
+    if (packed) pack(config, heap, begin, grains);
     if (heaps.size() > 1) {
       grains.heap.resize(grains.size(), static_cast<std::uint8_t>(n));
       grains.heap_names.push_back(heaps[n].name);

@@ -42,6 +42,7 @@ start = 0.0
 interval = 2.5e-4
 fields = true
 grain_forces = true
+bed_load = true
 )";
 
 Simulation simulation(const std::optional<std::filesystem::path>& restart) {

@@ -1,4 +1,4 @@
-"""The benchmark: scores against made-up references, errors of tables, folders that are whole, the page, measurements."""
+"""The benchmark: scores against made-up references, errors of tables, whole folders, the page, measurements."""
 
 import json
 from types import SimpleNamespace
@@ -19,7 +19,8 @@ def test_score_is_the_distance_in_errors():
     same = scores.score(reference, curve([0, 4], [1, 5], [0, 0]))  # a straight line through all
     assert same.distance == pytest.approx(0) and same.reached == 4 and same.word == "within"
     above = scores.score(reference, curve([0, 2], [1.5, 3.5], [0, 0]))
-    assert above.distance == pytest.approx(1) and above.bias == pytest.approx(1) and (above.reached, above.points) == (3, 4)
+    assert above.distance == pytest.approx(1) and above.bias == pytest.approx(1)
+    assert (above.reached, above.points) == (3, 4)
     below = scores.score(reference, curve([4, 5], [4.7, 9], [0, 0]))
     assert below.distance == pytest.approx(3) and below.bias == pytest.approx(-3) and below.word == "missed"
 
@@ -122,6 +123,11 @@ def lattice(lengths, d):
     axes = [(np.arange(round(length / d)) + 0.5) * d for length in lengths]
     x = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     return SimpleNamespace(x=x, d=np.full(len(x), d))
+
+
+def test_angles_about_downstream_do_not_become_upstream():
+    assert abs((scour.mean_angle([350, 10]) + 180) % 360 - 180) < 1e-9
+    assert scour.mean_angle([100, 260]) == pytest.approx(180)
 
 
 def test_front_and_heights_of_a_column():

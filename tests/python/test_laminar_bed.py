@@ -97,7 +97,8 @@ def test_what_it_needs(run, lack):
 
 
 def line(case, rows, realisation, flux):
-    return f"{case['reynolds']},{rows},1.5,0.6,5,{realisation},4,{case['height_resolved']},0.3,{flux},1e-4,1e-3,1e-4,nan,nan,nan"
+    height = case["height_resolved"]
+    return f"{case['reynolds']},{rows},1.5,0.6,5,{realisation},4,{height},0.3,{flux},1e-4,1e-3,1e-4,nan,nan,nan"
 
 
 # Two runs of A9 with d/2, one with thick rows, one run of A1.

@@ -58,7 +58,8 @@ def test_rows_are_the_second_half_of_a_run():
     expected = 6 * reynolds / (1.5 * 9.81 * D**3 / 1e-12) * (D / bed_top)**2
     assert resolved_load.measure(of_channel)[1] == pytest.approx(expected, rel=0.01)
     table = {name: np.array([value]) for name, value in
-             zip(("y", "bed_surface", "bed_stress", "shields", "load", "load_velocity", "q_star"), (0, D, 1, 0.3, 1, 1, 0.7))}
+             zip(("y", "bed_surface", "bed_stress", "shields", "load", "load_velocity", "q_star"),
+                  (0, D, 1, 0.3, 1, 1, 0.7))}
     by_rule = types.SimpleNamespace(**{**vars(run), "bed_load_columns": table})
     assert resolved_load.measure(by_rule)[1:3] == (0.3, 0.7)
     run.grain_file.times = times[:6]

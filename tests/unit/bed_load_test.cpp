@@ -145,6 +145,19 @@ TEST(BedLoad, SurfaceStressAndLoadOfAKnownBed) {
   }
 }
 
+TEST(BedLoad, AFlowUpstreamHasTheSameSurface) {
+  MadeUpBed bed;
+  BedLoad there(bed.around, bed.grid), back(bed.around, bed.grid);
+  bed.fluid.drive = {0.02, 0};
+  there.sample(bed.fluid, MadeUpBed::grains(fastest, false), 1);
+  bed.fluid.drive = {-0.02, 0};
+  back.sample(bed.fluid, MadeUpBed::grains(-fastest, false), 1);
+  const BedLoadRecord one = there.table()[0], other = back.table()[0];
+  EXPECT_EQ(one.bed_surface, other.bed_surface);
+  EXPECT_EQ(one.shields, -other.shields);
+  EXPECT_EQ(one.q_star, -other.q_star);
+}
+
 TEST(BedLoad, StressOfAFlowThatSpeedsUp) {
   // Pressure alone accelerates all fluid alike: it leaves no stress at any height.
   MadeUpBed bed;
