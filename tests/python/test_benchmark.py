@@ -149,3 +149,46 @@ def test_level_of_a_bed_leaves_out_grains_in_flight():
     grains = SimpleNamespace(x=np.concatenate([grains.x, above]), d=np.full(len(grains.x) + 5, d))
     everything = np.ones(len(grains.d), bool)
     assert scour.level(grains, everything, 0.02 * 0.004, d) == pytest.approx(0.008, abs=d)
+
+
+def made_up_run(frames, times, config, **more):
+    """A run with these grains at these times."""
+    return SimpleNamespace(frame=lambda number: frames[number], config=config, path=SimpleNamespace(name="loose"),
+                           need_grains=lambda: SimpleNamespace(times=np.array(times)), **more)
+
+
+def test_depth_of_a_hole_under_a_pipe():
+    d, fluid = 2e-4, {"density": 1000.0, "kinematic_viscosity": 1e-6, "mean_velocity": 0.2}
+    flat = lattice((0.03, 0.004, 0.0012), d)
+    away = (abs(flat.x[:, 0] - 0.015) > 0.001) | (flat.x[:, 1] < 0.0025)
+    dug = SimpleNamespace(x=flat.x[away], d=flat.d[away])
+    run = made_up_run([flat, dug], [0.0, 1.0], {
+        "body": [{"axis": "z", "centre": [0.015, 0.0006], "radius": 1.5e-3}], "fluid": fluid,
+        "grains": {"density": 2500.0, "gravity": [0, -9.81, 0]}, "domain": {"size": [0.03, 0.0144, 0.0012]}})
+    at, depth = scour.measure_run(run)["pipe_depth"]
+    assert depth == pytest.approx([0, 1.6 / 3], abs=0.5 * d / 3e-3)  # from 4 to 2.4 mm
+    water = 0.0144 - 0.004
+    stress = 0.073 * (2 * water * 0.2 / 1e-6)**-0.25 / 2 * 1000 * 0.2**2
+    time = 9e-6 / np.sqrt(1.5 * 9.81 * d**3) * (stress / (1500 * 9.81 * d))**(-5 / 3) / 50
+    assert at == pytest.approx([0, 1 / time], rel=0.02)
+
+
+def test_pressure_and_front_of_a_column_are_dimensionless():
+    d, wall = 225e-6, 1e-3
+    grains = lattice((column.LENGTH * d, 30 * d, 8 * d), d)
+    grains.x[:, 0] += wall
+    config = {"body": [{"centre": [wall / 2, 0], "size": [wall, 0]}], "domain": {"size": [0.04, 0.012, 8 * d]},
+              "fluid": {"density": 1010.0, "kinematic_viscosity": 1.2e-5},
+              "grains": {"density": 2500.0, "gravity": [0, -9.81, 0]}}
+    scales = column.Scales(made_up_run([grains], [0.0], config))
+    assert scales.height == pytest.approx(30 * d)
+    assert scales.weight == pytest.approx(1490 * 9.81 * np.pi / 6 * 30 * d)
+    assert scales.time == pytest.approx(30 * d / (1490 * 9.81 * d**2 / (18 * 1010 * 1.2e-5)))
+    times = np.repeat([0.0, 0.01], 3)
+    probes = {"base": {"t": times, "p": np.array([0, 0, 0, 5.0, 6.0, 7.0])},
+              "far": {"t": np.array([0.0, 0.01]), "p": np.array([0.0, 2.0])}}
+    run = made_up_run([grains, grains], [0.0, 0.01], config, probe_columns=probes)
+    found = column.measure_run(run)
+    assert list(found) == ["loose_front", "loose_pressure"]
+    assert found["loose_pressure"][1] == pytest.approx([2 / scales.weight])  # the mean of 0 and 4 Pa
+    assert found["loose_front"][0] == pytest.approx([0, 0.01 / scales.time])
