@@ -5,25 +5,24 @@ From the tables of the validation, threshold.csv and laminar_bed.csv: all forces
 
 import numpy as np
 
-from benchmark.folders import Curve
+from benchmark.folders import Curve, find
 from validation import tables, threshold
 
 STUDIES = ("validation/threshold", "validation/laminar-bed-study")
 ALL = 9.0  # forces
-SHIELDS = 0.12, 0.16, 0.20
 WITHIN = 0.02  # of a Shields number, windows count for it
-REYNOLDS = {"A1": 0.301, "A2": 0.402, "A9": 1.01, "A10": 1.15}
 
 
 def from_saved(folder):
     turbulent, laminar = tables.read_saved(folder, threshold.NAME), tables.read_saved(folder, "laminar_bed")
+    known = find("flat-bed").reference
     of = turbulent.where("rolling_friction", 0.0).where("forces", ALL)
     found = {}
     for name, falling in (("threshold_start", 0.0), ("threshold_stop", 1.0)):
         rows = of.where("falling", falling)
         found[name] = [(np.nan, threshold.zero_of(threshold.load_of)(rows), np.nan)]
-    found["turbulent_flux"] = [row for row in (flux_at(of, shields) for shields in SHIELDS) if row]
-    found["laminar_flux"] = [row for row in (laminar_at(laminar, re) for re in sorted(REYNOLDS.values())) if row]
+    found["turbulent_flux"] = [row for row in (flux_at(of, at) for at in known["turbulent_flux"].at) if row]
+    found["laminar_flux"] = [row for row in (laminar_at(laminar, at) for at in known["laminar_flux"].at) if row]
     curves = {name: Curve(*np.array(rows, float).T) for name, rows in found.items()}
     return curves, {**turbulent.notes, "minutes": "180"}
 

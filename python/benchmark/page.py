@@ -112,10 +112,9 @@ def anchor(title):
 
 def text():
     """The page."""
-    opening = (folders.FOLDER / "README.md").read_text(encoding="utf-8").rstrip()
-    opening = opening.replace("](", "](../benchmark/").replace("](../benchmark/../", "](../")
-    lines = ["<!-- Made by ./barchan benchmark --keep from benchmark/; do not edit. -->", opening, "", "## Scores", "",
-             *overview(), ""]
+    lines = ["<!-- Made by ./barchan benchmark --keep from benchmark/; do not edit. -->", "# Benchmark", "",
+             "Six cases that any program can compute, and how far each is from what was measured, in errors of the",
+             "reference ([statements, score, how to take part](../benchmark/README.md)).", "", *overview(), ""]
     for case in map(folders.find, folders.names()):
         lines += section(case)
     return "\n".join(lines).rstrip() + "\n"

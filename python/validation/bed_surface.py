@@ -18,7 +18,6 @@ class Bed:
     stress: float = np.nan  # [Pa]
     shields: float = np.nan
     load: float = np.nan  # mass of the grains above the surface [kg/m2]
-    load_velocity: float = np.nan  # [m/s]
     q_star: float = np.nan
 
     @property
@@ -31,8 +30,7 @@ def of(run):
     table = run.bed_load_columns
     if not table or not len(table["y"]):
         return Bed()
-    return Bed(*(float(table[name][0]) for name in ("bed_surface", "bed_stress", "shields", "load", "load_velocity",
-                                                    "q_star")))
+    return Bed(*(float(table[name][0]) for name in ("bed_surface", "bed_stress", "shields", "load", "q_star")))
 
 
 def stress_in_time(bed, run, acceleration):
