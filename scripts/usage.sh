@@ -40,6 +40,7 @@ usage: $command_name COMMAND [arguments]
   plot RUN_DIR [FIGURE ...]   pictures of a run or a study; --help lists them
       --pdf, --svg      PDF files, SVG files besides the PNG files
       --time T, --from T, --to T   seconds, for figures of a moment and of means
+      --only CASE       of a study: only this case; a pattern with * is allowed; may be repeated
       --debug           show where an unexpected error arose
   watch RUN_DIR | CASE.toml   keep report.html of a running case up to date; the page reloads itself
   vtk RUN_DIR         files for VTK and ParaView (VTKHDF) in RUN_DIR/vtkhdf, linked to the results

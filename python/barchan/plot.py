@@ -1,7 +1,7 @@
 """Figures of a run, or of a study: a folder with study.json and a run folder per case.
 
     barchan plot RUN_DIR [FIGURE ...] [--pdf] [--svg] [--time T] [--from T] [--to T]
-    barchan plot STUDY_DIR [FIGURE ...] [--pdf] [--svg] [--from T] [--to T]
+    barchan plot STUDY_DIR [FIGURE ...] [--pdf] [--svg] [--from T] [--to T] [--only CASE]
 
 Without names: all figures for which the run has data. Writes RUN_DIR/<figure>.png and the numbers
 behind curves to RUN_DIR/figures_data/<figure>.csv. A figure may be named by its number in the paper
@@ -49,6 +49,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
                         help="force_map, sectors, morphodynamics, flow_around_body, forces_on_bodies, laws, means, "
                              "force_depth, probes: means from T seconds on")
     parser.add_argument("--to", type=float, metavar="T", dest="end", help="... up to T seconds")
+    parser.add_argument("--only", action="append", metavar="CASE", default=[],
+                        help="of a study: these cases of it; a pattern with * is taken; may be repeated")
     parser.add_argument("--debug", action="store_true", help="show where an unexpected error arose")
     options = parser.parse_args(arguments)
     options.figures = [name.replace("-", "_") for name in options.figures]
@@ -138,7 +140,9 @@ def main(arguments: Sequence[str]) -> int:
         wrong = misnamed(options.figures, is_study)
         if wrong and (is_study or os.path.isdir(options.run_dir)):
             return fail(wrong)
-        folder = StudyFolder(options.run_dir) if is_study else RunFolder(options.run_dir)
+        if options.only and not is_study:
+            return fail("--only chooses cases of a study; this is no folder of a study")
+        folder = StudyFolder(options.run_dir, options.only) if is_study else RunFolder(options.run_dir)
     except BarchanError as error:
         return fail(error)
     if isinstance(folder, StudyFolder):

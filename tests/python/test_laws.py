@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from fake_runs import ROOT
 
-from barchan import MissingData, Study, stats
+from barchan import MissingData, Study, plot, stats
 from barchan.dune import fits, laws
 from barchan.figures import laws as laws_figure
 from barchan.figures import means
@@ -226,3 +226,17 @@ def test_a_window_without_times(study):
     assert len(laws.measure(study, 11.85)["case"]) == 0, "a window of two times counts"
     with pytest.raises(MissingData, match="needs two cases with dunes"):
         laws_figure.draw(study, start=100)
+
+
+def test_a_part_of_a_study_is_drawn(tmp_path, capsys):
+    folder = tmp_path / "study"
+    folder.mkdir()
+    write_study(folder, 0.0)
+    assert plot.main([str(folder), "laws", "--only", "3k", "--only", "10*"]) == 0
+    rows = (folder / "figures_data/laws.csv").read_text().splitlines()[1:]
+    assert {row.split(",")[0] for row in rows} == {"3k", "10k", "100k"}
+    capsys.readouterr()
+    assert plot.main([str(folder), "laws", "--only", "5k"]) == 2
+    assert 'no case "5k"' in capsys.readouterr().err
+    assert plot.main([str(folder / "3k"), "--only", "3k"]) == 2
+    assert "--only chooses cases of a study" in capsys.readouterr().err

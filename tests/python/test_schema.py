@@ -66,11 +66,10 @@ def test_every_case_here_is_valid(valid, path):
 @pytest.mark.parametrize("path", **named(STUDIES))
 def test_every_case_of_a_study_here_is_valid(valid, path):
     study = read_study(path, argparse.Namespace(at_once=None, threads=None, out=None))
-    base = load_case(study.base)
     assert study.cases
     for case in study.cases:
         values = tomllib.loads("\n".join(case.set_options()[1::2]))
-        assert valid(merge(base, values)), (case.name, values)
+        assert valid(merge(load_case(case.base), values)), (case.name, values)
 
 
 def test_cases_that_tests_run_are_valid(valid):

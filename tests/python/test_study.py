@@ -87,3 +87,45 @@ def test_values_of_the_base_case_may_stand_in_its_own_base(tmp_path):
     assert [case.name for case in study.cases] == ["base", "sliding_friction-0.3"]
     (tmp_path / "deep" / "root.toml").write_text('[case]\nbase = "../case.toml"\n')
     assert load_case(tmp_path / "case.toml")["grains"] == {"restitution": 0.2}, "a circle ends"
+
+
+def of_files(folder, of, more=""):
+    (folder / "case.toml").write_text("[time]\nend = 1.0\n")
+    (folder / "deep").mkdir(exist_ok=True)
+    (folder / "deep" / "other.toml").write_text("[time]\nend = 2.0\n")
+    (folder / "deep" / "sizes.toml").write_text('ensemble.realisations = 2\n[study]\nbase = "../case.toml"\n'
+                                                "[set]\ntime.end = 5.0\n[cases]\nsmall.grains.skin = 1e-5\nlarge = {}\n")
+    (folder / "all.toml").write_text(f"{more}\n[study]\nof = {of}\n")
+    return read_study(folder / "all.toml", OPTIONS)
+
+
+def test_a_study_of_other_files_has_their_cases(tmp_path):
+    """A case as often as the study says; of another study what that one says, named after it."""
+    study = of_files(tmp_path, '["deep/other.toml", "case.toml", "deep/sizes.toml"]',
+                     "ensemble.realisations = 3\nset.output.dune_interval = 1.0")
+    base, sizes, common = tmp_path / "case.toml", {"time.end": 5.0}, {"output.dune_interval": 1.0}
+    firsts = [("other", tmp_path / "deep/other.toml", common), ("case", base, common),
+              ("sizes-small", base, {**sizes, "grains.skin": 1e-5, **common}), ("sizes-large", base, {**sizes, **common})]
+    assert [(case.name, case.base, case.values) for case in study.cases if case.realisation == 1] == firsts
+    assert [case.run_name for case in study.cases[len(firsts):]] == [
+        "other-r2", "case-r2", "sizes-small-r2", "sizes-large-r2", "other-r3", "case-r3"]
+    assert study.realisations == 3
+
+
+def test_a_study_of_other_files_may_have_cases_of_its_own(tmp_path):
+    study = of_files(tmp_path, '["deep/other.toml"]\nbase = "case.toml"', "[cases]\nslow.time.end = 9.0")
+    assert [(case.name, case.values) for case in study.cases] == [("slow", {"time.end": 9.0}), ("other", {})]
+
+
+@pytest.mark.parametrize("of, more, said", [
+    ('["no.toml"]', "", "cannot read .*no.toml: No such file"),
+    ('"case.toml"', "", r"\[study\] of must be a list of files, cases or studies"),
+    ("[3]", "", r"\[study\] of must be a list of files"),
+    ("[]", "", r"\[study\] base must name the case"),
+    ('["case.toml"]', "[cases]\na = {}", r"\[study\] base must name the case"),
+    ('["all.toml"]', "", 'all.toml has an "of" itself; name its files here'),
+    ('["case.toml", "case.toml"]', "", 'two cases are named "case"'),
+])
+def test_a_study_of_other_files_says_what_is_wrong(tmp_path, of, more, said):
+    with pytest.raises(StudyError, match=said):
+        of_files(tmp_path, of, more)

@@ -3,6 +3,7 @@
 Cases may be absent, unfinished or failed: what they have is used, `gaps` says what they lack.
 """
 
+import fnmatch
 import json
 import os
 from collections.abc import Callable, Iterable
@@ -87,7 +88,8 @@ class StudyFolder:
 
     run_class: type[RunFolder] = RunFolder
 
-    def __init__(self, path: str | Path) -> None:
+    def __init__(self, path: str | Path, only: Iterable[str] = ()) -> None:
+        """`only`: the cases whose names fit one of these patterns (*, ?, [abc]); all by default."""
         self.path = Path(path)
         try:
             study = json.loads((self.path / NAME).read_text())
@@ -98,6 +100,12 @@ class StudyFolder:
             raise BarchanError(f"cannot read {self.path / NAME}: {error}") from error
         except (KeyError, TypeError, AttributeError) as error:
             raise BarchanError(f"{self.path / NAME} does not list its cases as a study does") from error
+        for pattern in only:
+            if not fnmatch.filter([case.name for case in self.cases], pattern):
+                raise BarchanError(f'no case "{pattern}" in {self.path}; it has '
+                                   + ", ".join(case.name for case in self.cases))
+        self.cases = [case for case in self.cases
+                      if not only or any(fnmatch.fnmatchcase(case.name, pattern) for pattern in only)]
 
     def _case(self, entry: dict[str, Any]) -> Case:
         path = self.path / entry["folder"]

@@ -16,7 +16,7 @@ from barchan.errors import BarchanError
 from barchan.io.study_folder import run_name
 
 SECTIONS = ("study", "set", "vary", "grid", "case", "cases", "ensemble")
-STUDY_KEYS = ("title", "base", "at_once", "threads")
+STUDY_KEYS = ("title", "base", "of", "at_once", "threads")
 CASE_KEYS = ("name", "like", "set")
 ENSEMBLE_KEYS = ("realisations", "cases")
 REALISATION = "initial.realisation"
@@ -33,13 +33,14 @@ MOST_REALISATIONS = 100
 
 @dataclass
 class Case:
-    """`values`: keys of the configuration and their values here, the study's common ones included.
+    """`base`: the file of the case that is varied. `values`: keys and their values here, the common ones included.
 
     `varied`: the one key in which the case differs from the base case; None for the base and for grids.
     `realisation`: which member of its ensemble this run is; the first is the case as it stands.
     """
 
     name: str
+    base: Path
     values: dict
     varied: str | None = None
     realisation: int = 1
@@ -60,7 +61,6 @@ class Case:
 @dataclass
 class Study:
     title: str
-    base: Path
     out: Path
     at_once: int
     threads: int
@@ -170,26 +170,27 @@ def lists_of(table, path, section):
     return lists
 
 
-def one_at_a_time(lists, base_config, common, path):
+def one_at_a_time(lists, base, common, path):
     """The base case, then for each key its other values."""
+    base_config = load_case(base)
     fixed = {key: common.get(key, lookup(base_config, key)) for key in lists}
     for key, value in fixed.items():
         if value is None:  # the program's default is not known here, and a guess would be wrong
             raise StudyError(f"{path}: [vary] {key} has no value in the base case: give it there or in [set]")
-    cases = [Case("base", {**common, **fixed})]
+    cases = [Case("base", base, {**common, **fixed})]
     for key, values in lists.items():
-        cases += [Case(label(key, value), {**common, **fixed, key: value}, key)
+        cases += [Case(label(key, value), base, {**common, **fixed, key: value}, key)
                   for value in values if value != fixed[key]]
     return cases
 
 
-def all_combinations(lists, common, path):
+def all_combinations(lists, base, common, path):
     if not lists:
         return []
     count = math.prod(len(values) for values in lists.values())
     if count > MOST_CASES:
         raise StudyError(f"{path}: [grid] makes {count} cases, of at most {MOST_CASES}: give fewer keys or values")
-    return [Case("_".join(label(key, value) for key, value in zip(lists, values)),
+    return [Case("_".join(label(key, value) for key, value in zip(lists, values)), base,
                  {**common, **dict(zip(lists, values))})
             for values in itertools.product(*lists.values())]
 
@@ -201,7 +202,7 @@ def tables_of(table):
                                       for name, keys in table.get("cases", {}).items())]
 
 
-def named_cases(tables, common, path):
+def named_cases(tables, base, common, path):
     cases, own = [], {}  # own: the values of each case without the common ones
     for table in tables:
         for key in table:
@@ -217,7 +218,22 @@ def named_cases(tables, common, path):
         if not name or not re.fullmatch(r"[A-Za-z0-9_.+-]+", name) or name.startswith("."):
             raise StudyError(f'{path}: [[case]] name "{name}" must be of letters, digits and _ . + -')
         own[name] = values
-        cases.append(Case(name, {**common, **values}))
+        cases.append(Case(name, base, {**common, **values}))
+    return cases
+
+
+def cases_of_files(files, common, count, path):
+    """The cases of other files: `count` realisations of a case, and of a study all that it has."""
+    cases = []
+    for name in files:
+        file = (path.parent / name).resolve()
+        if "study" not in load(file):
+            cases += repeated([Case(file.stem, file, common)], count, [file.stem])
+            continue
+        if "of" in load(file)["study"]:
+            raise StudyError(f"{path}: [study] of: {name} has an \"of\" itself; name its files here")
+        cases += [replace(case, name=f"{file.stem}-{case.name}", values={**case.values, **common})
+                  for case in cases_of(file)[1]]
     return cases
 
 
@@ -229,17 +245,19 @@ def ensemble_of(cases, table, path):
     count = table.get("realisations", 1)
     if not (type(count) is int and 1 <= count <= MOST_REALISATIONS):
         raise StudyError(f"{path}: [ensemble] realisations must be a number from 1 to {MOST_REALISATIONS}")
-    if count > 1 and any(REALISATION in case.values for case in cases):
-        raise StudyError(f"{path}: [ensemble] sets {REALISATION} itself: do not give it as well")
     names = [case.name for case in cases]
-    repeated = table.get("cases", names)
-    if not isinstance(repeated, list) or not repeated:
+    chosen = table.get("cases", names)
+    if not isinstance(chosen, list) or not chosen and cases:
         raise StudyError(f"{path}: [ensemble] cases must be a list of names of cases")
-    for name in repeated:
+    for name in chosen:
         if name not in names:
             raise unknown(str(name), names, f"{path}: [ensemble] cases")
-    return count, [replace(case, realisation=which) for which in range(1, count + 1) for case in cases
-                   if which == 1 or case.name in repeated]
+    return count, repeated(cases, count, chosen)
+
+
+def repeated(cases, count, chosen):
+    return [replace(case, realisation=which) for which in range(1, count + 1) for case in cases
+            if which == 1 or case.name in chosen]
 
 
 def check_kind(value, section, path):
@@ -276,7 +294,11 @@ def check_sections(table, path):
     for key in head:
         if key not in STUDY_KEYS:
             raise unknown(key, STUDY_KEYS, f"{path}: [study]")
-    if not isinstance(head.get("base"), str):
+    files = head.get("of", [])
+    if not isinstance(files, list) or not all(isinstance(name, str) for name in files):
+        raise StudyError(f"{path}: [study] of must be a list of files, cases or studies")
+    varied = any(section in table for section in ("vary", "grid", "case", "cases"))
+    if not isinstance(head.get("base", "" if files and not varied else None), str):
         raise StudyError(f"{path}: [study] base must name the case that is varied")
     if not isinstance(head.get("title", ""), str):
         raise StudyError(f"{path}: [study] title must be text")
@@ -287,20 +309,29 @@ def check_sections(table, path):
     return head
 
 
-def read_study(path, options):
+def cases_of(path):
+    """What [study] says, and every realisation of every case, all first ones first."""
     table = load(path)
     head = check_sections(table, path)
-    base = (path.parent / head["base"]).resolve()
-    base_config = load_case(base)
     common = flatten(table.get("set", {}))
     cases = []
-    if "vary" in table:
-        cases += one_at_a_time(lists_of(table["vary"], path, "vary"), base_config, common, path)
-    cases += all_combinations(lists_of(table.get("grid", {}), path, "grid"), common, path)
-    cases += named_cases(tables_of(table), common, path)
+    if "base" in head:
+        base = (path.parent / head["base"]).resolve()
+        if "vary" in table:
+            cases += one_at_a_time(lists_of(table["vary"], path, "vary"), base, common, path)
+        cases += all_combinations(lists_of(table.get("grid", {}), path, "grid"), base, common, path)
+        cases += named_cases(tables_of(table), base, common, path)
+    count, cases = ensemble_of(cases, table.get("ensemble", {}), path)
+    cases += cases_of_files(head.get("of", []), common, count, path)
     if not cases:
         raise StudyError(f"{path}: no cases: give [vary], [grid] or [cases]")
-    realisations, cases = ensemble_of(cases, table.get("ensemble", {}), path)
+    if any(REALISATION in case.values for case in cases if case.realisation > 1):
+        raise StudyError(f"{path}: [ensemble] sets {REALISATION} itself: do not give it as well")
+    return head, sorted(cases, key=lambda case: case.realisation)
+
+
+def read_study(path, options):
+    head, cases = cases_of(path)
     names = [case.run_name for case in cases]
     for name in names:
         if len(name) > LONGEST_NAME:
@@ -318,6 +349,6 @@ def read_study(path, options):
     threads = asked or max(1, cores // at_once)
     keys = list(dict.fromkeys(key for case in cases for key in case.values
                               if any(other.values.get(key) != case.values[key] for other in cases)))
-    return Study(title=head.get("title", path.stem), base=base, at_once=at_once, threads=threads,
+    return Study(title=head.get("title", path.stem), at_once=at_once, threads=threads,
                  out=Path(options.out or Path("runs") / run_name(path)), cases=cases,
-                 realisations=realisations, keys=keys)
+                 realisations=max(case.realisation for case in cases), keys=keys)

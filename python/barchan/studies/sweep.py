@@ -39,7 +39,7 @@ def resolved(program, study, case):
     """The case with every default filled in, as a dictionary, and the file whose content has changed since its folder's
     results began from it, or None; StudyError with the program's sentences.
     """
-    command = [program, "check", "--resolved-only", str(study.base), *case.set_options(),
+    command = [program, "check", "--resolved-only", str(case.base), *case.set_options(),
                "--out", str(study.out / case.run_name)]
     checked = subprocess.run(command, capture_output=True, text=True, env=one_thread())
     if checked.returncode != 0:
@@ -115,7 +115,7 @@ class Running:
 
     def __init__(self, program, study, case, restart, threads, overwrite):
         self.case, self.folder = case, study.out / case.run_name
-        command = [program, "run", str(study.base), *case.set_options(), "--out", str(self.folder),
+        command = [program, "run", str(case.base), *case.set_options(), "--out", str(self.folder),
                    "--quiet", "--threads", str(threads)]
         if restart:
             command += ["--restart", str(restart)]
@@ -210,7 +210,7 @@ class Sweep:
         folder = writing.folder(self.study.out / case.run_name)
         _, restart = self.state(case)
         if restart is None:
-            command = [self.program, "run", str(self.study.base), *case.set_options(), "--out", str(folder),
+            command = [self.program, "run", str(case.base), *case.set_options(), "--out", str(folder),
                        "--quiet", "--starts-only"]
             threads = self.study.threads * (self.study.at_once - len(self.running))  # those of no case
             with appending(folder / "sweep.txt") as log:
@@ -308,7 +308,7 @@ def check_earlier_place(study):
     """Earlier versions called the folder of a study by the last part of its name: StudyError if its results are there."""
     earlier = Path("runs") / study.out.name
     there = json_of(earlier / NAME)
-    if not study.out.exists() and (there.get("title"), there.get("base")) == (study.title, str(study.base)):
+    if not study.out.exists() and (there.get("title"), there.get("base")) == (study.title, str(study.cases[0].base)):
         raise StudyError("results of an earlier version have another folder now; move them, or compute them again with "
                          f"--overwrite:\n  mkdir -p {study.out.parent}; mv {earlier} {study.out}")
 

@@ -36,10 +36,10 @@ def as_csv(rows):
 def write_table(study, failed, status):
     """`status`: of each run, by its name."""
     cases = [{"name": case.run_name, "folder": case.run_name, "case": case.name,
-              "realisation": case.realisation, "varied": case.varied, "values": case.values}
+              "realisation": case.realisation, "base": str(case.base), "varied": case.varied, "values": case.values}
              for case in study.cases]
     write(study.out / "study.json",
-          json.dumps({"title": study.title, "base": str(study.base), "cases": cases}, indent=1) + "\n")
+          json.dumps({"title": study.title, "base": str(study.cases[0].base), "cases": cases}, indent=1) + "\n")
     last = {case.run_name: last_of_main_dune(study.out / case.run_name) for case in study.cases}
     which = ["realisation"] * (study.realisations > 1)
     rows = [["case", *which, *study.keys, "status", *DUNE_COLUMNS]]
