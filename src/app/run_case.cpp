@@ -40,7 +40,6 @@ std::string numbers_of(const SettledCase& the_case) {
   return to_text(the_case.numbers) + memory_line(the_case.config, the_case.sizes);
 }
 
-fs::path start_file(const Case& source, const fs::path& runs, int realisation);
 enum class Role { asked_for, precursor };
 void run_locked(const Case& the_case, const RunOptions& options, Role role);
 
@@ -113,18 +112,16 @@ void make_start(const Case& source, const fs::path& runs, int realisation) {
     const StartCase start = start_case(source, runs, realisation);
     check_place(start.realised.config, {.folder = start.folder, .restart = start.earlier.restart});
     const auto lock = wait_for_lock(start.folder);
-    const auto& [first, realised, folder, earlier] = start_case(source, runs, realisation);
+    const auto& [realised, folder, earlier] = start_case(source, runs, realisation);
     // All ranks act on what rank 0 sees: the run that one starts changes what another would find.
     if (broadcast(earlier.done(), MPI_COMM_WORLD)) return;
     if (broadcast(!earlier.same() && earlier.is_worth_keeping(), MPI_COMM_WORLD)) {
       set_aside(folder, earlier);
       continue;
     }
-    auto restart = earlier.same() ? earlier.restart : std::nullopt;
-    if (!restart &&
-        realised.config.time.end > first.config.time.end)  // the same flow some time later
-      restart = start_file(source, runs, realisation - 1);
-    run_locked(realised, {.folder = folder, .restart = restart}, Role::precursor);
+    run_locked(realised,
+               {.folder = folder, .restart = earlier.same() ? earlier.restart : std::nullopt},
+               Role::precursor);
     return;
   }
 }

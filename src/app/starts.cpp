@@ -76,13 +76,10 @@ Case load_case_of(const CommandLine& line) {
 }
 
 StartCase start_case(const Case& source, const fs::path& runs, int realisation) {
-  StartCase start{.first = source,
-                  .realised = ensemble_member(source, realisation),
-                  .folder = {},
-                  .earlier = {}};
-  const Config &first = start.first.config, &config = start.realised.config;
-  const std::string other = config == first ? "" : fmt::format("-r{}", realisation);
-  start.folder = runs / case_name(first.file);
+  StartCase start{.realised = ensemble_member(source, realisation), .folder = {}, .earlier = {}};
+  const bool same = start.realised.config == source.config;
+  const std::string other = same ? "" : fmt::format("-r{}", realisation);
+  start.folder = runs / case_name(source.config.file);
   start.folder += other;
   start.earlier = earlier_run(start.realised, start.folder);
   return start;

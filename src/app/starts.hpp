@@ -22,7 +22,6 @@ Case load_case_of(const CommandLine& line);
 
 /// Case that another one starts from: [initial] fluid or grains = a .toml.
 struct StartCase {
-  Case first;     // case as it stands in its file
   Case realised;  // case in the realisation that is asked for
   std::filesystem::path folder;
   EarlierRun earlier;  // run in the folder
