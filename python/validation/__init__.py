@@ -22,6 +22,7 @@ from validation import channel
 from validation import contacts
 from validation import dem_cases
 from validation import dune_window
+from validation import field_cases
 from validation import flow
 from validation import laminar_bed
 from validation import resolved_bed
@@ -49,10 +50,11 @@ FIGURES = {
     resolved_spheres.NAME: resolved_spheres.draw,
     dune_window.NAME: dune_window.draw,
     dem_cases.NAME: dem_cases.draw,
+    field_cases.NAME: field_cases.draw,
 }
 STUDIES = {module.NAME: module
            for module in (bed_load, threshold, laminar_bed, resolved_bed, resolved_load, resolved_spheres, dune_window,
-                          dem_cases)}
+                          dem_cases, field_cases)}
 
 
 def parse(arguments):

@@ -79,7 +79,9 @@ def sentences(run: RunFolder) -> Iterator[str]:
         yield f"the current turns at {start:.3g} s: reversal time {said(time)}"
 
 
-def _until_horns(run: RunFolder, start: float, end: float, along: np.ndarray) -> float:
+def seen_along(run: RunFolder, start: float, end: float, along: np.ndarray) -> dict[str, np.ndarray]:
+    """The measures of dune.csv of the main dune, with the unit vector `along` as x, in the frames from start to before
+    end [s]. {} without any."""
     source, rows = tracks(run), []
     for index in np.nonzero((source.times >= start) & (source.times < end))[0]:
         grains = source.read(int(index))
@@ -89,8 +91,12 @@ def _until_horns(run: RunFolder, start: float, end: float, along: np.ndarray) ->
             flat = Bed(source.bed.lengths, (False, False))
             seen = detect.measure(turned(grains, sand.centroid, source.bed, along), chosen, flat)
             rows.append({"t": grains.time, **seen})
-    if not rows:
+    return {name: np.array([row[name] for row in rows]) for name in (rows[0] if rows else ())}
+
+
+def _until_horns(run: RunFolder, start: float, end: float, along: np.ndarray) -> float:
+    dune = seen_along(run, start, end, along)
+    if not dune:
         return np.nan
-    dune = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     dune |= {name: np.array(values) for name, values in medians(dune).items()}
     return formation_time(dune, start)

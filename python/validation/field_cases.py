@@ -1,0 +1,236 @@
+"""field_cases: outcomes of the cases from the literature, from the runs of configs/field/all.toml. `--keep` takes the
+folder of the study, runs/field/all.
+
+A row is a number of a run: of the whole run, or at a time t, every half second. Quantities:
+- `class` of an encounter or obstacle (docs/dune-measures.md), and its columns of encounters.csv or obstacles.csv;
+- `grains`, `W`, `L`, `horn`, `lost`: of the main dune, at the end means of the last second, along the last current (in
+  turn-fast along the mean of both); horns are the mean of both by height, `lost` the part of its first grains;
+- `formation_time`, `reversal_time`, `static`: the part of the dune's grains that moves by less than a diameter from the
+  turn of the current to the end of the run;
+- `first at REGION`, `first in horns`: share of the first kind there less its share of the dune, second half of the run;
+- `distance` of two ridges, the shorter way round; `grains of up/downstream`: of the named dunes;
+- the columns of laws.csv.
+"""
+
+import csv
+
+import numpy as np
+
+from barchan.dune import composition, current, encounters, laws, obstacles
+from barchan.dune.shape import MAIN, main_rows
+from barchan.dune.tracks import tracks
+from barchan.errors import MissingData
+from barchan.figures import style
+from barchan.io.study_folder import StudyFolder, gap_of
+from barchan.stats import spread
+from validation import tables
+
+NAME = "field_cases"
+COLUMNS = "case,realisation,t,quantity,value"
+EVERY = 0.5  # [s] between the times of curves
+CLASS = "class"
+
+
+def main_dune(run, along=None):
+    """Numbers of the main dune at the end, and its grains in time."""
+    dune = run.main_dune_columns
+    end = dune["t"][-1]
+    seen = current.seen_along(run, end - 1.0, np.inf, current.direction(run.config, end) if along is None else along)
+    horns = 0.5 * (seen["horn_left_2d"] + seen["horn_right_2d"])
+    yield None, "horn", horns.mean()
+    for name in ("W", "L"):
+        yield None, name, seen[name].mean()
+    yield None, "lost", 1 - dune["n_grains"][dune["t"] >= end - 1.0].mean() / dune["n_grains"][0]
+    yield from curve("grains", dune["t"], dune["n_grains"])
+
+
+def curve(name, t, values):
+    for time in np.arange(0, t[-1] + 1e-9, EVERY):
+        yield time, name, values[np.argmin(abs(t - time))]
+
+
+def turning(run, name):
+    """A dune in a current that turns: fast turns leave it no direction but their mean."""
+    yield from main_dune(run, np.array(current.ALONG_X) if name == "turn-fast" else None)
+    for number, (_, time) in enumerate(current.reversal_times(run), 1):
+        if name == "turn-slow":
+            yield None, f"horns after turn {number}", time
+
+
+def reversal(run, _):
+    yield None, "formation_time", laws.formation_time(run.main_dune_columns)
+    (turn, time), *_ = current.reversal_times(run)
+    yield None, "reversal_time", time
+    source = tracks(run)
+    first, last = source.read(source.index(turn)), source.read(len(source.times) - 1)
+    of_dune = first.id[main_rows(first)]
+    _, before, after = np.intersect1d(first.id, last.id, return_indices=True)
+    moved = np.linalg.norm(source.bed.nearest(last.x[after] - first.x[before]), axis=1)
+    still = np.isin(first.id[before], of_dune) & (moved < first.d.mean())
+    yield None, "static", np.count_nonzero(still) / len(of_dune)
+    yield from main_dune(run)
+
+
+def mixture(run, _):
+    found = composition.composition(run)
+    late = found.t >= 0.5 * found.t[-1]
+    for region in composition.REGIONS[1:]:
+        excess = found.share(region)[:, 0] - found.share("dune")[:, 0]
+        yield None, f"first {'in' if region == 'horns' else 'at'} {region}", np.nanmean(excess[late])
+    yield from main_dune(run)
+
+
+def ridges(run, _):
+    length = run.config["domain"]["size"][0]
+    first, second = (run.dune_columns.get(label) for label in (0, 1))
+    t, places = np.unique(np.intersect1d(first["t"], second["t"])), []
+    for dune in (first, second):
+        known, rows = np.unique(dune["t"], return_index=True)
+        places.append(dune["Cx"][rows][np.isin(known, t)])
+    apart = (places[1] - places[0]) % length
+    shorter = np.minimum(apart, length - apart)
+    yield None, "first distance", shorter[t < 1].mean()
+    yield None, "last distance", shorter[t > t[-1] - 1].mean()
+    yield None, "both there until", t[-1]
+    yield from curve("distance", t, shorter)
+
+
+def meeting(run, _):
+    """Two dunes: how it went, and the grains of both until they touch."""
+    lineage, found = encounters.find(run)
+    if not found:
+        yield None, CLASS, "none"
+        return
+    one = found[0]
+    yield None, CLASS, one.kind
+    for name in ("upstream_over_downstream", "offset", "t_contact", "t_end", "distance_start", "distance_end"):
+        yield None, name, getattr(one, name)
+    for side, name in (("upstream", one.upstream), ("downstream", one.downstream)):
+        n = lineage.n_grains[:, name]
+        there = np.flatnonzero(np.isfinite(n))
+        yield None, f"{side} lost", 1 - n[there[-1]] / n[0]
+        yield None, f"to_{side}", getattr(one, f"to_{side}") / min(lineage.n_grains[0, [one.upstream, one.downstream]])
+        yield from curve(f"grains of {side}", lineage.t[there], n[there])
+
+
+def obstacle(run, _):
+    (one, *_) = obstacles.find(run)
+    yield None, CLASS, one.outcome
+    for name in ("t_contact", "upstream", "around", "downstream", "over", "together", "celerity_before",
+                 "celerity_after"):
+        yield None, name, getattr(one, name)
+
+
+def size(run, _):
+    for name, value in laws.of_run(run).items():
+        yield None, name, value
+
+
+def fed(run, _):
+    """What it loses from 2 s on."""
+    dune = run.main_dune_columns
+    late = dune["n_grains"][dune["t"] >= 2]
+    yield None, "change from 2 s", late[-1] / late[0] - 1
+    yield from main_dune(run)
+
+
+KINDS = {"encounters-": meeting, "two-heaps": meeting, "turn-": turning, "reversal": reversal, "two-densities": mixture,
+         "two-ridges": ridges, "barchan-meets-": obstacle, "sizes-": size, "fed-": fed, "unfed-": fed}
+
+
+def rows_of(study):
+    for case in study.cases:
+        measure = next((measure for start, measure in KINDS.items() if case.name.startswith(start)), None)
+        for run in case.runs:
+            if measure is None or gap_of(run.path):
+                continue
+            number = run.config["initial"]["realisation"]
+            for t, quantity, value in measure(run, case.name):
+                shown = value if isinstance(value, str) else f"{value:.6g}"
+                yield f"{case.name},{number},{'' if t is None else f'{t:g}'},{quantity},{shown}"
+
+
+def save(folder, out):
+    study = StudyFolder(folder)
+    rows = list(rows_of(study))
+    if not rows:
+        raise MissingData(f"needs finished runs of configs/field/all.toml in {folder}")
+    run = next(run for case in study.cases for run in case.runs if not gap_of(run.path))
+    return tables.keep(out / f"{NAME}.csv", "Cases from the literature: their outcomes",
+                       "./barchan sweep configs/field/all.toml", run.summary, [COLUMNS, *rows])
+
+
+def read(source):
+    """{case: {quantity: [value of each realisation]}} and the same for curves, [(t, value)]."""
+    path = source / f"{NAME}.csv"
+    if not path.exists():
+        raise MissingData(f"needs {path}")
+    whole, curves = {}, {}
+    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
+    for row in csv.DictReader(lines):
+        value = row["value"] if row["quantity"] == CLASS else float(row["value"])
+        if row["t"]:
+            series = curves.setdefault(row["case"], {}).setdefault(row["quantity"], {})
+            series.setdefault(row["realisation"], []).append((float(row["t"]), value))
+        else:
+            whole.setdefault(row["case"], {}).setdefault(row["quantity"], []).append(value)
+    return whole, curves
+
+
+def summary(source):
+    """A line for each quantity of each case: its mean and standard deviation, or its classes."""
+    for case, quantities in read(source)[0].items():
+        for name, values in quantities.items():
+            if name == CLASS:
+                yield f"{case}: " + ", ".join(f"{values.count(kind)} x {kind}" for kind in dict.fromkeys(values))
+                continue
+            known = [value for value in values if np.isfinite(value)]
+            if known:
+                found = spread(known)
+                lacks = f", not known in {len(values) - len(known)}" * (len(known) < len(values))
+                yield f"{case}: {name} {found.mean:.4g} +- {found.deviation:.2g} ({len(known)} runs{lacks})"
+
+
+MARKS = {encounters.MERGING: ("o", style.BLUE), encounters.EXCHANGE: ("s", style.VERMILLION),
+         encounters.CHASING: (">", style.GREEN), encounters.FRAGMENTATION_CHASING: ("^", style.ORANGE),
+         encounters.FRAGMENTATION_EXCHANGE: ("v", style.PURPLE), encounters.UNDECIDED: ("x", style.GREY)}
+
+
+def draw_map(ax, whole):
+    """Classes over the ratio of grains and the offset; realisations side by side."""
+    seen = {}
+    for case, found in whole.items():
+        if not case.startswith("encounters-") or "offset" not in found:
+            continue
+        for number, (kind, ratio, offset) in enumerate(zip(found[CLASS], found["upstream_over_downstream"],
+                                                           found["offset"])):
+            mark, colour = MARKS[kind]
+            seen[kind], = ax.plot(ratio * (1 + 0.04 * number), 1e3 * abs(offset), mark, color=colour, ls="none")
+    ax.legend(seen.values(), seen.keys(), loc="center right")
+    ax.set(xlabel="grains of the upstream dune / downstream", ylabel="offset [mm]", title="encounters")
+
+
+def draw_curves(ax, curves, cases, quantity, factor=1.0, relative=False):
+    for (case, label), colour in zip(cases.items(), (style.BLUE, style.VERMILLION, style.GREEN)):
+        for number, series in enumerate(curves.get(case, {}).get(quantity, {}).values()):
+            t, values = np.transpose(series)
+            ax.plot(t, factor * values / (values[0] if relative else 1), color=colour, label=label * (number == 0))
+    ax.set(xlabel="$t$ [s]")
+
+
+def draw(source):
+    whole, curves = read(source)
+    figure, ((encounter, turns), (apart, pair)) = style.panels(None, 2, 2, figsize=(style.FULL_WIDTH, 5.0))
+    draw_map(encounter, whole)
+    draw_curves(turns, curves, {"turn-never": "never", "turn-slow": "slowly", "turn-fast": "fast"}, "grains",
+                100, relative=True)
+    turns.set(ylabel="grains of the dune [%]", title="a current that turns")
+    turns.legend()
+    draw_curves(apart, curves, {"two-ridges": ""}, "distance", 1e3)
+    apart.set(ylabel="distance [mm]", title="two ridges")
+    for side, colour in (("upstream", style.BLUE), ("downstream", style.VERMILLION)):
+        for number, series in enumerate(curves.get("two-heaps", {}).get(f"grains of {side}", {}).values()):
+            pair.plot(*np.transpose(series), color=colour, label=side * (number == 0))
+    pair.set(xlabel="$t$ [s]", ylabel="grains", title="two barchans in line")
+    pair.legend()
+    return figure
