@@ -66,6 +66,15 @@ def test_least_squares_are_those_of_numpy():
     assert law.error == pytest.approx(np.sqrt(covariance[0, 0]), rel=1e-9)
 
 
+def test_where_a_line_is_zero_and_how_well_that_is_known():
+    """y = 3 (x - 2) with scatter: the spread of the zeros of many fits is their standard error."""
+    random, x = np.random.default_rng(5), np.repeat([4.0, 6.0, 9.0], 4)
+    found = [fit(x, 3 * (x - 2) + 0.3 * random.standard_normal(len(x)), "line").zero for _ in range(2000)]
+    zeros, errors = np.transpose(found)
+    assert zeros.mean() == pytest.approx(2, abs=0.01)
+    assert errors.mean() == pytest.approx(zeros.std(), rel=0.05)
+
+
 def test_a_ratio_is_that_of_the_means():
     x, y = np.array([1.0, 2, 3, 4]), np.array([0.9, 2.2, 2.9, 4.4])
     law = fit(x, y, "ratio")

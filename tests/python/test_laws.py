@@ -149,7 +149,7 @@ def test_the_figure_of_a_sweep(sweep, tmp_path):
 
 
 def law_of(n, error, relation):
-    return laws.verdict(fits.Law(relation.kind, n, error, 2.2 * error, 12, 12, np.zeros((1, 2))), relation)
+    return laws.verdict(fits.Law(relation.kind, n, error, 2.2 * error, 12, 12, np.zeros((1, 2)), 0.0), relation)
 
 
 def test_the_verdicts():

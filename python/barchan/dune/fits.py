@@ -20,7 +20,7 @@ class Law:
     """A power y = a x^n, a line y = a + n x or a ratio y = n x, fitted to `runs` of `known` runs.
 
     error: the standard error of n, interval: half the width of its 95 % interval. Groups of runs share n, and have an
-    a each: `centres` (groups, 2) are points of their lines, of a power in logarithms.
+    a each: `centres` (groups, 2) are points of their lines, of a power in logarithms. deviation: of the runs from them.
     """
 
     kind: str
@@ -30,6 +30,7 @@ class Law:
     runs: int
     known: int
     centres: np.ndarray
+    deviation: float
 
     def __call__(self, x: np.ndarray | float, n: float | None = None, group: int = 0) -> np.ndarray:
         """y at x; with another n the line through the same centre."""
@@ -40,6 +41,14 @@ class Law:
     def a(self) -> float:
         """Of the first group."""
         return float(self(1.0 if self.kind == "power" else 0.0))
+
+    @property
+    def zero(self) -> tuple[float, float]:
+        """x at which the line of the first group is 0, and its standard error, by propagation of those of the centre
+        and of n, which are independent."""
+        x0, y0 = self.centres[0]
+        centre = self.deviation / np.sqrt(self.runs)
+        return float(x0 - y0 / self.n), float(np.hypot(centre, y0 / self.n * self.error) / abs(self.n))
 
     def holds(self, n: float) -> bool:
         """Whether n lies in the 95 % interval."""
@@ -73,9 +82,10 @@ def fit(x: np.ndarray, y: np.ndarray, kind: str, cases: Labels | None = None,
         return None
     n = weight @ y / along
     residual = y - n * x
-    error = np.sqrt(residual @ residual / freedom * (weight @ weight)) / abs(along)
+    deviation = np.sqrt(residual @ residual / freedom)
+    error = deviation * np.sqrt(weight @ weight) / abs(along)
     return Law(kind, float(n), float(error), float(student_t(0.975, freedom) * error), len(x),
-               int(np.count_nonzero(finite)), centres)
+               int(np.count_nonzero(finite)), centres, float(deviation))
 
 
 def indices(labels: Labels, used: np.ndarray) -> np.ndarray:

@@ -157,7 +157,10 @@ def sentences(table: dict[str, np.ndarray], laws: dict[str, Law | None]) -> Iter
 
 
 def with_fit(law: Law, relation: Relation) -> str:
-    a = f", a = {1e3 * law.a:.3g} mm" if relation.kind == "line" and len(law.centres) == 1 else ""
+    a = ""
+    if relation.kind == "line" and len(law.centres) == 1:
+        zero, error = law.zero
+        a = f", a = {1e3 * law.a:.3g} mm, 0 at L = {1e3 * zero:.3g} +- {1e3 * error:.2g} mm"
     runs = f"{law.runs} runs" if law.runs == law.known else f"{law.runs} of {law.known} runs, the others not positive"
     said = f"{a}, n = {law.n:.3g} +- {law.error:.2g} (standard error; 95 %: +- {law.interval:.2g}; {runs})"
     if relation.published is None:
