@@ -127,8 +127,8 @@ def ejecting_two():
                                                for side, sign in ((LEFT, -1), (~LEFT, 1)))]
 
 
-def write_run(folder, frames, bed, heap=None, schedule=""):
-    """A run folder with these frames in grains.h5; heap (N): of each grain by its id."""
+def write_run(folder, frames, bed, heap=None, schedule="", more=lambda frame: {}):
+    """A run folder with these frames in grains.h5; heap (N): of each grain by its id; more(frame): other arrays."""
     folder.mkdir()
     config = (f"[domain]\nsize = [{bed.lengths[0]}, 0.02, {bed.lengths[1]}]\n[grains]\nboundary_x = "
               f"\"{'periodic' if bed.periodic[0] else 'exit'}\"\n{schedule}")
@@ -138,6 +138,6 @@ def write_run(folder, frames, bed, heap=None, schedule=""):
     (folder / "run.json").write_text('{"status": "done", "steps": 3}\n')
     with open_file(folder / "grains.h5") as file:
         for number, frame in enumerate(frames):
-            arrays = {"id": frame.id, "x": frame.x, "d": frame.d, "dune": frame.dune}
+            arrays = {"id": frame.id, "x": frame.x, "d": frame.d, "dune": frame.dune} | more(frame)
             write_frame(file, number, frame.time, arrays if heap is None else arrays | {"heap": heap[frame.id]})
     return folder

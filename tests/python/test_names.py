@@ -78,7 +78,7 @@ def texts(figure):
 
 # How many texts with names each shows, of 2 bodies, 2 heaps or 2 kinds.
 SHOWN = {"topviews": 4, "height_map": 0, "morphology": 0, "midplane": 0, "profiles": 0, "bedload": 0, "history": 0,
-         "encounters": 0,
+         "encounters": 0, "encounter_forces": 0,
          "profiles_over_dune": 1, "morphodynamics": 0, "horns": 0, "composition": 2, "horn_origins": 0, "force_map": 0,
          "sectors": 0, "forces_on_bodies": 8, "flow_around_body": 2, "obstacles": 4, "scour": 2,
          "probes": 0}

@@ -6,6 +6,7 @@ top. Parts of the heap: upstream of its centroid by more than a fifth of its rad
 crest between.
 """
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -32,10 +33,15 @@ def of_run(run: Any, start: float | None = None, end: float | None = None) -> di
         samples = [read_frame(content[name]) for name in inside]
     x, d, _ = samples[-1]
     force = np.array([sample[2] for sample in samples])
-    grains, water = run.config.get("grains", {}), run.config.get("fluid", {}).get("density", 1000.0)
-    gravity = np.linalg.norm(grains.get("gravity", [0, -9.81, 0]))
-    weight = (grains.get("density", 2500.0) - water) * gravity * np.pi / 6 * d**3
+    weight = submerged_weight(run.config, d)
     return by_depth(x, d, force.mean(axis=0) / weight, np.sqrt((force**2).mean(axis=0)) / weight, weight)
+
+
+def submerged_weight(config: Mapping[str, Any], d: Any) -> Any:
+    """Of grains of diameter d [m] in the water of a case [N]."""
+    grains, water = config.get("grains", {}), config.get("fluid", {}).get("density", 1000.0)
+    gravity = np.linalg.norm(grains.get("gravity", [0, -9.81, 0]))
+    return (grains.get("density", 2500.0) - water) * gravity * np.pi / 6 * d**3
 
 
 def read_frame(group: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -5,7 +5,7 @@ frame before, so that two dunes in contact, which are one on the map, keep their
 Definitions: docs/dune-measures.md, "Names". SI units.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -70,6 +70,7 @@ class _Follower:
     heaps: list[np.ndarray] = field(default_factory=list)
     heap_volumes: list[np.ndarray] = field(default_factory=list)
     moves: list[np.ndarray] = field(default_factory=list)
+    names: np.ndarray = field(default_factory=lambda: np.zeros(0, int))  # of the grains of the last frame
 
     def see(self, grains: Grains, heap: np.ndarray | None) -> None:
         """The next frame; `heap`: of each of its grains."""
@@ -121,6 +122,7 @@ class _Follower:
             for name in names:
                 bodies[name] = place
                 sizes[name] = self._measured(grains, rows[name_of[rows] == name], self.last.get(name))
+        self.names = name_of
         self.last |= sizes
         self.bodies.append(bodies)
         self.sizes.append(sizes)
@@ -155,13 +157,17 @@ def _enlarged(values: np.ndarray, ids: np.ndarray) -> np.ndarray:
     return np.concatenate([values, np.full(missing, NONE)]) if missing > 0 else values
 
 
-def follow(frames: Iterable[Grains], bed: Bed, heap: np.ndarray | None = None) -> Lineage:
+def follow(frames: Iterable[Grains], bed: Bed, heap: np.ndarray | None = None,
+           seen: Callable[[Grains, np.ndarray], None] | None = None) -> Lineage:
     """Frames with labels `dune`, in order of time. `heap` (N): of the grains of the first one; else each dune there is
-    a heap. Grains that come later are of no heap."""
+    a heap. Grains that come later are of no heap. `seen` gets each frame and the names (N) of its grains, NONE: in no
+    dune."""
     memory, t = _Follower(bed), []
     for grains in frames:
         memory.see(grains, heap)
         t.append(grains.time)
+        if seen is not None:
+            seen(grains, memory.names)
     shape = len(t), len(memory.births)
     body = np.full(shape, NONE)
     columns = {name: np.full(shape, np.nan) for name in ("n_grains", "volume", "x", "z", *SIDES)}

@@ -67,6 +67,8 @@ OF_RUN = table(
     Entry("encounters", "figures.encounters",
           "dunes that meet: paths, masses, exchange, outcome; writes encounters.csv",
           ("tracks.h5|grains.h5",)),
+    Entry("encounter_forces", "figures.encounter_forces",
+          "force of the water on two dunes that meet, grains that change sides", (GRAINS,)),
     Entry("report", "report", "one page about the run, with the grains as an animation: report.html", (), writes=True),
     Entry("profiles_over_dune", "figures.profiles_over_dune",
           "mean flow and stresses at stations along a frozen dune", ("flow_average.h5", GRAINS, DUNES)),

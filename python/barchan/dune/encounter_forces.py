@@ -1,0 +1,275 @@
+"""The water's force along the current on two dunes that meet, and whose grains lie in whose dune; no drawing.
+
+Forces are means over grains at the surface, as fractions of the submerged weight of a grain of mean diameter. Maps
+move with the centroid of both dunes. Definitions: docs/dune-measures.md, "Encounters". SI units.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from barchan.dune import encounters
+from barchan.dune.current import direction
+from barchan.dune.encounters import Encounter
+from barchan.dune.force_depth import submerged_weight
+from barchan.dune.lineage import NONE, Lineage, follow
+from barchan.dune.shape import Bed, Sand, number_of_bins
+from barchan.dune.tracks import tracks
+from barchan.errors import MissingData
+from barchan.io.frames import FrameFile, Grains
+from barchan.io.run_folder import RunFolder
+from barchan.stats import spread, within
+
+WATER = ("force_drag", "force_added_mass", "force_lift", "force_pressure_gradient", "force_stress", "force_flow")
+FRAMES = 6    # of a mean over time
+FEWEST = 20   # grains of which a mean on part of a dune is formed
+SIDES = (5, 95)  # [%] quantiles of a dune's grains across the current between which its wake lies
+
+
+@dataclass
+class Sample:
+    """N grains of one frame: x, z [m] from the centroid of both dunes, force over weight, whether at a surface, dune
+    by name, cross-section [m2]. centroids (2, 2): x, z [m] of upstream and downstream dune from there."""
+
+    time: float
+    x: np.ndarray
+    force: np.ndarray
+    surface: np.ndarray
+    name: np.ndarray
+    area: np.ndarray
+    centroids: np.ndarray
+
+
+@dataclass
+class Map:
+    """Means over `frames` frames from `start` to `end` [s]. edges: of bins along x and z, from the centroid of both
+    dunes [m]. By bin: n, grains of all frames; force, NaN without grains. cover (2): summed cross-sections of the
+    upstream and downstream dune's grains over the area of the bin. centroids as in Sample."""
+
+    moment: str
+    start: float
+    end: float
+    frames: int
+    edges: tuple[np.ndarray, np.ndarray]
+    n: np.ndarray
+    force: np.ndarray
+    cover: np.ndarray
+    centroids: np.ndarray
+
+
+@dataclass
+class Forces:
+    """F frames with forces: t (F) [s]; touching (F). Of upstream and downstream dune (2, F), NaN where it is not there:
+    force, mean at the surface over weight; foreign, share of its first grains that lie in the other dune. wake (2, F):
+    force on the upstream half of the downstream dune, behind the upstream one and beside; NaN while they touch."""
+
+    encounter: Encounter
+    t: np.ndarray
+    touching: np.ndarray
+    force: np.ndarray
+    foreign: np.ndarray
+    wake: np.ndarray
+    maps: list[Map]
+
+    def means(self, values: np.ndarray) -> np.ndarray:
+        """(3, n) of consecutive FRAMES frames: middle [s], mean and half its 95 % interval."""
+        rows = []
+        for first in range(0, len(self.t), FRAMES):
+            part = values[first:first + FRAMES]
+            if np.isfinite(part).all() and len(part) > 1:
+                found = spread(part.tolist())
+                rows.append((self.t[first:first + FRAMES].mean(), found.mean, found.interval))
+        return np.array(rows).reshape(-1, 3).T
+
+
+def of_run(run: RunFolder) -> Forces:
+    """Of the first encounter with a contact, else of the first one."""
+    lineage, found = encounters.find(run)
+    if not found:
+        raise MissingData("needs two dunes that meet in tracks.h5 or grains.h5")
+    file = run.frame_file("grains.h5", ("id", "x", "d", "dune", "force_total"))
+    if file is None:
+        raise MissingData("needs grains.h5 with forces (output.grain_forces = true)")
+    one = next((each for each in found if np.isfinite(each.t_contact)), found[0])
+    chosen = [frame for frame in file.frames if frame[0] > 0 and within(frame[0], one.t_start, one.t_end)]
+    if len(chosen) < 2:
+        raise MissingData("needs two frames of grains.h5 with forces "
+                          f"between t = {one.t_start:g} s and {one.t_end:g} s")
+    return _read(run, file, chosen, lineage, one)
+
+
+def _read(run: RunFolder, file: FrameFile, frames: list[tuple[float, str]], lineage: Lineage, one: Encounter) -> Forces:
+    bed, pair = tracks(run).bed, (one.upstream, one.downstream)
+    t = np.array([time for time, _ in frames])
+    named = _names_at(run, [*t, one.t_start])
+    ids, first = named.pop()
+    home = np.full(int(ids.max(initial=0)) + 1, NONE)
+    home[ids] = first
+    there = np.clip(np.searchsorted(lineage.t, t * (1 + 1e-9), side="right") - 1, 0, None)
+    body = lineage.body[there][:, pair]
+    touching = (body[:, 0] == body[:, 1]) & (body[:, 0] != NONE)
+    windows = moments(lineage, one, t, touching)
+    kept: dict[int, Sample] = {}
+    wanted = {index for rows in windows.values() for index in rows}
+    force, foreign, wake = np.full((3, 2, len(t)), np.nan)
+    with file.open() as content:
+        for index, (time, group) in enumerate(frames):
+            way = direction(run.config, time)
+            grains, along = read_frame(content[group], time, way)
+            name = _values_of(grains.id, *named[index])
+            name[grains.dune == NONE] = NONE
+            weight = float(submerged_weight(run.config, grains.d.mean()))
+            sample = sample_of(grains, along / weight, name, pair, bed)
+            if sample is None:
+                continue
+            force[:, index] = [np.mean(sample.force[sample.surface & (name == dune)]) for dune in pair]
+            if not touching[index]:
+                wake[:, index] = [values.mean() if len(values) >= FEWEST else np.nan
+                                  for values in behind_and_beside(sample, pair, way)]
+            inside = in_other(grains, _values_of(grains.id, np.arange(len(home)), home), pair, bed)
+            foreign[:, index] = [count / np.count_nonzero(home == dune) for count, dune in zip(inside, pair)]
+            if index in wanted:
+                kept[index] = sample
+    sizes = bed.lengths / number_of_bins(bed, float(tracks(run).read(0).d.mean()))
+    maps = [map_of(moment, [kept[row] for row in rows if row in kept], pair, sizes) for moment, rows in windows.items()
+            if any(row in kept for row in rows)]
+    if not maps:
+        raise MissingData("needs a frame of grains.h5 with forces in which both dunes are there")
+    return Forces(one, t, touching, force, foreign, wake, maps)
+
+
+def _names_at(run: RunFolder, times: list[float]) -> list[tuple[np.ndarray, np.ndarray]]:
+    """(ids, names) of the grains at each time: those of the last frame of the tracks not after it."""
+    source = tracks(run)
+    wanted = [source.index(max(time, source.times[0])) for time in times]
+    found: dict[float, tuple[np.ndarray, np.ndarray]] = {}
+
+    def keep(grains: Grains, names: np.ndarray) -> None:
+        if grains.time in at:
+            found[grains.time] = grains.id.astype(np.int32), names.astype(np.int16)  # of a long run many
+
+    at = {float(source.times[index]) for index in wanted}
+    follow((source.read(index) for index in range(max(wanted) + 1)), source.bed, seen=keep)
+    return [found[float(source.times[index])] for index in wanted]
+
+
+def _values_of(wanted: np.ndarray, ids: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Of these ids, where `ids` ascend; NONE of those that are not among them."""
+    if not len(ids):
+        return np.full(len(wanted), NONE)
+    at = np.minimum(np.searchsorted(ids, wanted), len(ids) - 1)
+    return np.where(ids[at] == wanted, values[at], NONE)
+
+
+def read_frame(group: Any, time: float, along: np.ndarray) -> tuple[Grains, np.ndarray]:
+    """The grains by id, and the water's force on each along a unit vector (2) of the current [N]."""
+    there = [name for name in WATER if name in group]
+    if not there:
+        raise MissingData("needs grains.h5 with forces of the water")
+    order = np.argsort(group["id"][:])
+    number, x, d, dune = (group[name][:][order] for name in ("id", "x", "d", "dune"))
+    force = np.sum([group[name][:][order].astype(float) for name in there], axis=0)
+    known = np.isfinite(x).all(axis=1) & np.isfinite(force).all(axis=1)
+    grains = Grains(time, number[known], x[known], d[known].astype(float), dune[known])
+    return grains, force[known][:, (0, 2)] @ along
+
+
+def moments(lineage: Lineage, one: Encounter, t: np.ndarray, touching: np.ndarray) -> dict[str, range]:
+    """{moment: rows of t}: FRAMES frames each, without those that would overlap. The contact is the first that lasts as
+    long, else the first of all."""
+    def rows(first: int) -> range:
+        return range(max(0, first), min(first + FRAMES, len(t)))
+
+    if not np.isfinite(one.t_contact):
+        apart = np.hypot(*(getattr(lineage, axis)[:, one.downstream] - getattr(lineage, axis)[:, one.upstream]
+                           for axis in "xz"))
+        inside = within(lineage.t, t[0], t[-1]) & np.isfinite(apart)
+        closest = lineage.t[inside][np.argmin(apart[inside])]
+        middle = int(np.argmin(abs(t - closest))) - FRAMES // 2
+        plan = [("start", rows(0)), ("closest", rows(middle)), ("end", rows(len(t) - FRAMES))]
+    else:
+        lasting = [row for row in range(len(t) - FRAMES + 1) if touching[row:row + FRAMES].all()]
+        contact = lasting[0] if lasting else int(np.searchsorted(t, one.t_contact * (1 - 1e-9)))
+        parted = int(np.searchsorted(t, one.t_apart * (1 - 1e-9))) if np.isfinite(one.t_apart) else len(t)
+        last = ("apart", rows(parted)) if parted <= len(t) - FRAMES else ("end", rows(len(t) - FRAMES))
+        before = range(max(0, contact - FRAMES), contact)
+        plan = [("approach", rows(contact // 2 - FRAMES)), ("just before contact", before),
+                ("contact", rows(contact)), last]
+    found: dict[str, range] = {}
+    for moment, chosen in sorted(plan, key=lambda each: each[0] in ("approach", "closest")):
+        if len(chosen) and not any(set(chosen) & set(other) for other in found.values()):
+            found[moment] = chosen
+    return {moment: found[moment] for moment, _ in plan if moment in found}
+
+
+def sample_of(grains: Grains, force: np.ndarray, name: np.ndarray, pair: tuple[int, int], bed: Bed) -> Sample | None:
+    """None where one of the two dunes has no grain. `force` (N): over weight; `name` (N): the dune of each."""
+    places = []
+    for dune in pair:
+        rows = np.nonzero(name == dune)[0]
+        if not len(rows):
+            return None
+        sand = Sand.of(grains, rows, bed)
+        places.append((sand.centroid, float(np.sum(sand.radius**3))))
+    (up, v_up), (down, v_down) = places
+    apart = bed.nearest(down - up)
+    middle = up + apart * v_down / (v_up + v_down)
+    centroids = np.array([bed.nearest(up - middle), bed.nearest(down - middle)])[:, (0, 2)]
+    return Sample(grains.time, bed.nearest(grains.x - middle)[:, (0, 2)], force, at_surface(grains, bed), name,
+                  np.pi / 4 * grains.d**2, centroids)
+
+
+def behind_and_beside(sample: Sample, pair: tuple[int, int], way: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Forces over weight on surface grains of the downstream dune upstream of its centroid: between the SIDES of the
+    upstream dune, and not. way: unit vector (2) of the current."""
+    across = sample.x @ np.array((-way[1], way[0]))
+    low, high = np.percentile(across[sample.name == pair[0]], SIDES)
+    half = sample.surface & (sample.name == pair[1]) & ((sample.x - sample.centroids[1]) @ way < 0)
+    inside = (across >= low) & (across <= high)
+    return sample.force[half & inside], sample.force[half & ~inside]
+
+
+def at_surface(grains: Grains, bed: Bed) -> np.ndarray:
+    """(N) whether the top of a grain reaches to within a mean diameter below the surface of its dune."""
+    assert grains.dune is not None
+    result = np.zeros(len(grains.id), bool)
+    for label in np.unique(grains.dune[grains.dune != NONE]):
+        rows = np.nonzero(grains.dune == label)[0]
+        sand = Sand.of(grains, rows, bed)
+        top = grains.x[rows, 1] + sand.radius
+        result[rows] = top >= sand.surface.at(sand.x, sand.z) - float(grains.d.mean())
+    return result
+
+
+def in_other(grains: Grains, home: np.ndarray, pair: tuple[int, int], bed: Bed) -> tuple[int, int]:
+    """How many grains of each dune of `pair` lie in the other one: in a dune, in a bin where more grains are of the
+    other one. home (N): the dune by name from which each grain is."""
+    assert grains.dune is not None
+    shape = number_of_bins(bed, float(grains.d.mean()))
+    place = np.floor(grains.x[:, (0, 2)] / (bed.lengths / shape)).astype(int)
+    place = np.where(bed.periodic, place % shape, np.clip(place, 0, shape - 1))
+    bins = np.ravel_multi_index(tuple(place.T), tuple(shape))
+    up, down = (np.bincount(bins[(home == dune) & (grains.dune != NONE)], minlength=shape.prod()) for dune in pair)
+    return int(up[down > up].sum()), int(down[up > down].sum())
+
+
+def map_of(moment: str, samples: list[Sample], pair: tuple[int, int], sizes: np.ndarray) -> Map:
+    """The mean over frames, in bins of these sizes (2) [m]."""
+    reach = np.max([abs(sample.x).max(axis=0) for sample in samples], axis=0)
+    half = np.ceil(reach / sizes + 0.5).astype(int)
+    edges = tuple((np.arange(-n, n + 2) - 0.5) * size for n, size in zip(half, sizes))
+    n, force = np.zeros(2 * half + 1), np.zeros(2 * half + 1)
+    cover = np.zeros((2, *(2 * half + 1)))
+    for sample in samples:
+        place = tuple(np.round(sample.x / sizes).astype(int).T + half[:, None])
+        top = tuple(axis[sample.surface] for axis in place)
+        np.add.at(n, top, 1)
+        np.add.at(force, top, sample.force[sample.surface])
+        for index, dune in enumerate(pair):
+            own = sample.name == dune
+            np.add.at(cover[index], tuple(axis[own] for axis in place), sample.area[own])
+    with np.errstate(invalid="ignore"):
+        mean = force / n
+    return Map(moment, samples[0].time, samples[-1].time, len(samples), (edges[0], edges[1]), n, mean,
+               cover / (len(samples) * np.prod(sizes)), np.mean([sample.centroids for sample in samples], axis=0))

@@ -1,0 +1,146 @@
+"""encounter_forces: what the water does to two dunes that meet, and whose grains lie in whose dune.
+
+(a) to (d) from above, moving with the centroid of both dunes: the water's force along the current on grains at the
+surface, over the submerged weight of a mean grain. Lines: outlines of the dunes by name, dots: their centroids. Below
+against time: the same force as mean over each dune, and the share of each one's first grains that lies in the other;
+grey: they touch. Definitions: docs/dune-measures.md, "Encounters".
+"""
+
+import numpy as np
+from contourpy import contour_generator
+from matplotlib.figure import Figure
+
+from barchan.dune import encounter_forces
+from barchan.dune.current import always_along_x
+from barchan.dune.detect import RIM_COVER
+from barchan.figures import style
+from barchan.figures.encounters import COLOURS
+from barchan.figures.result import keep, say
+from barchan.stats import spread
+
+FEWEST = 6       # grains of a bin that is drawn
+CURVES = 2.9     # [in]
+MARGIN = 1.0e-3  # [m] around the outlines
+
+
+def draw(run, ax=None):
+    style.own_page(ax)
+    found = encounter_forces.of_run(run)
+    pair = found.encounter.upstream, found.encounter.downstream
+    colours = [COLOURS[name % len(COLOURS)] for name in pair]
+    window = window_of(found.maps)
+    width = 0.5 * style.FULL_WIDTH - 0.4
+    height = width * (window[3] - window[2]) / (window[1] - window[0])
+    rows = -(-len(found.maps) // 2)
+    tall = rows * (height + 0.25) + 0.4 * (1 + len(found.maps) % 2) + 0.6  # titles; labels of x; colour bar
+    figure = Figure(figsize=(style.FULL_WIDTH, tall + CURVES), layout="constrained")
+    above, below = figure.subfigures(2, 1, height_ratios=(tall, CURVES))
+    maps = above.subplots(rows, 2, sharex=True, sharey=True, squeeze=False)
+    draw_maps(above, maps, found.maps, window, colours)
+    if always_along_x(run.config):
+        style.flow_arrow(maps[0, 0], 0.02, 0.93)
+    draw_curves(below.subplots(2, 1, sharex=True), found, pair, colours, len(found.maps))
+    say(figure, sentences(found, pair))
+    keep_tables(figure, found)
+    return figure
+
+
+def window_of(maps):
+    """(x0, x1, z0, z1) [m] around both dunes in all maps."""
+    ends = []
+    for one in maps:
+        held = np.nonzero(one.cover.max(axis=0) >= RIM_COVER)
+        ends += [(edges[rows.min()], edges[rows.max() + 1]) for edges, rows in zip(one.edges, held)]
+    x, z = np.array(ends[::2]), np.array(ends[1::2])
+    return x[:, 0].min() - MARGIN, x[:, 1].max() + MARGIN, z[:, 0].min() - MARGIN, z[:, 1].max() + MARGIN
+
+
+def draw_maps(figure, panels, maps, window, colours):
+    shown = [np.ma.masked_where(one.n < FEWEST, one.force) for one in maps]
+    limit = max(np.percentile(abs(np.concatenate([one.compressed() for one in shown])), 98), 1e-12)
+    for index, (axes, one, values) in enumerate(zip(panels.flat, maps, shown)):
+        x, z = (1e3 * edges for edges in one.edges)
+        image = axes.pcolormesh(x, z, values.T, vmin=-limit, vmax=limit, cmap=style.FORCE_MAP, rasterized=True)
+        middles = [0.5 * (edges[1:] + edges[:-1]) for edges in (x, z)]
+        for cover, centroid, colour in zip(one.cover, 1e3 * one.centroids, colours):
+            for line in contour_generator(*middles, cover.T).lines(RIM_COVER):
+                axes.plot(*line.T, color=colour, lw=1.2)
+            axes.plot(*centroid, "o", mfc=colour, mec="white", mew=0.8, ms=5)
+        style.panel_label(axes, index)
+        axes.set_title(f"{one.moment}, $t$ = {one.start:.2f} to {one.end:.2f} s", pad=3)
+        axes.set(aspect="equal", xlim=1e3 * np.array(window[:2]), ylim=1e3 * np.array(window[:1:-1]))
+    for axes in panels.flat[len(maps):]:
+        axes.set_visible(False)
+    for axes in panels.flat[max(0, len(maps) - 2):len(maps)]:
+        axes.tick_params(labelbottom=True)
+        axes.set_xlabel("$x$ from the centroid of both (mm)")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("$z$ (mm)")
+    bar = figure.colorbar(image, ax=panels, location="bottom", shrink=0.5, aspect=35, pad=0.02, extend="both")
+    bar.set_label("force of the water along the current / submerged weight")
+    bar.outline.set_linewidth(0.6)
+
+
+def draw_curves(panels, found, pair, colours, first):
+    forces, shares = panels
+    up, down = pair
+    curves = [(force, colour, "-", f"dune {name}, {role}")
+              for force, colour, name, role in zip(found.force, colours, pair, ("upstream", "downstream"))]
+    curves += [(force, colours[1], dashes, f"upstream half of dune {down}, {where} dune {up}")
+               for force, dashes, where in zip(found.wake, ("--", ":"), ("behind", "beside"))]
+    highest = 0.0
+    for force, colour, dashes, label in curves:
+        t, mean, interval = found.means(force)
+        if len(t):
+            forces.plot(t, mean, color=colour, ls=dashes, label=label, marker=style.mark_if_few(t), ms=2.5)
+            highest = max(highest, mean.max())
+        if dashes == "-":
+            forces.fill_between(t, mean - interval, mean + interval, color=colour, alpha=0.2, lw=0)
+    for foreign, colour, name, other in zip(found.foreign, colours, pair, pair[::-1]):
+        shares.plot(found.t, 100 * foreign, color=colour, label=f"of dune {name} in dune {other}")
+    for index, axes in enumerate(panels):
+        axes.fill_between(found.t, 0, 1, where=found.touching, transform=axes.get_xaxis_transform(), color="0.9", lw=0,
+                          zorder=0)
+        axes.legend(loc="upper left", ncols=2)
+        style.panel_label(axes, first + index)
+    forces.set(ylabel="force / weight", ylim=(0, 1.7 * highest))
+    shares.set(xlabel="$t$ (s)", ylabel="grains (%)", xlim=found.t[[0, -1]], ylim=(0, 1.4 * shares.get_ylim()[1]))
+
+
+def sentences(found, pair):
+    told = []
+    for one in found.maps:
+        chosen = (found.t >= one.start) & (found.t <= one.end)
+        up, down, *wake = (mean_of(values[chosen]) for values in (*found.force, *found.wake))
+        halves = f" (its upstream half: {wake[0]} behind dune {pair[0]}, {wake[1]} beside)" if all(wake) else ""
+        told.append(f"{one.moment}, {one.start:.3g} to {one.end:.3g} s: force of the water on surface grains over "
+                    f"their weight {up} on dune {pair[0]}, {down} on dune {pair[1]} downstream{halves}")
+    for name, foreign in zip(pair, found.foreign):
+        last = foreign[np.isfinite(foreign)][-1]
+        told.append(f"dune {name}: {100 * last:.1f} % of its first grains lie in the other dune at the end")
+    return told
+
+
+def mean_of(values):
+    """With its 95 % interval, "" of fewer than two values."""
+    known = values[np.isfinite(values)]
+    if len(known) < 2:
+        return ""
+    found = spread(known.tolist())
+    return f"{found.mean:.3f} +- {found.interval:.3f}"
+
+
+def keep_tables(figure, found):
+    sides = "upstream", "downstream"
+    keep(figure, "encounter_forces", {
+        "t": found.t, "touching": found.touching,
+        **{f"force_{side}": values for side, values in zip(sides, found.force)},
+        **{f"foreign_{side}": values for side, values in zip(sides, found.foreign)},
+        "force_behind": found.wake[0], "force_beside": found.wake[1]}, most=None)
+    rows = []
+    for number, one in enumerate(found.maps):
+        x, z = (0.5 * (edges[1:] + edges[:-1]) for edges in one.edges)
+        for i, k in np.argwhere(one.n > 0):
+            rows.append((number, one.start, one.end, x[i], z[k], one.n[i, k], one.force[i, k], *one.cover[:, i, k]))
+    names = "map", "t_start", "t_end", "x", "z", "n", "force", "cover_upstream", "cover_downstream"
+    keep(figure, "encounter_force_maps", dict(zip(names, zip(*rows))), most=None)
