@@ -1,0 +1,58 @@
+"""Outcomes of the cases from the literature: every case has a measure, and the measures find what was built."""
+
+import argparse
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from fake_runs import ROOT
+
+from barchan.studies.spec import read_study
+from validation import field_cases
+
+OPTIONS = argparse.Namespace(at_once=None, threads=None, out=None)
+
+
+def test_every_case_of_the_sweep_has_a_measure():
+    cases = {case.name for case in read_study(ROOT / "configs/field/all.toml", OPTIONS).cases}
+    assert cases and all(any(name.startswith(start) for start in field_cases.KINDS) for name in cases)
+
+
+def measured(rows):
+    return {name: value for t, name, value in rows if t is None}
+
+
+def test_ridges_across_the_seam_are_as_far_apart_as_the_shorter_way():
+    """One stands at 46 mm of 48 mm, the other goes from 11 mm behind it, through the seam, to 23 mm."""
+    t = np.linspace(0, 10, 101)
+    apart = 0.011 + 0.0012 * t
+    run = SimpleNamespace(config={"domain": {"size": [0.048, 0.0125, 0.01]}},
+                          dune_columns={0: {"t": t, "Cx": 0 * t + 0.046}, 1: {"t": t[:-1], "Cx": (0.046 + apart[:-1]) % 0.048}})
+    found = measured(field_cases.ridges(run, ""))
+    assert found["first distance"] == pytest.approx(0.011 + 0.0012 * 0.45, abs=1e-6)
+    assert found["last distance"] == pytest.approx(0.011 + 0.0012 * 9.4, abs=1e-4)
+    assert found["both there until"] == pytest.approx(9.9)
+
+
+def test_what_a_fed_dune_gains_counts_from_two_seconds_on():
+    t = np.linspace(0, 6, 61)
+    run = SimpleNamespace(main_dune_columns={"t": t, "n_grains": np.where(t < 2, 9e9, 1000 - 10 * (t - 2))})
+    assert next(field_cases.fed(run, ""))[1:] == ("change from 2 s", pytest.approx(-0.04))
+
+
+def test_saved_outcomes_are_counted_and_averaged(tmp_path):
+    (tmp_path / "field_cases.csv").write_text(
+        "# title: x\ncase,realisation,t,quantity,value\n"
+        "encounters-a,1,,class,merging\nencounters-a,2,,class,chasing\nencounters-a,3,,class,merging\n"
+        "encounters-a,1,,offset,0\nencounters-a,2,,offset,1e-3\nencounters-a,3,,offset,0\n"
+        "encounters-a,1,,upstream_over_downstream,0.3\nencounters-a,2,,upstream_over_downstream,0.3\n"
+        "encounters-a,3,,upstream_over_downstream,0.3\n"
+        "reversal,1,,reversal_time,2\nreversal,2,,reversal_time,4\nreversal,3,,reversal_time,nan\n"
+        "two-ridges,1,0.5,distance,0.013\ntwo-ridges,1,1,distance,0.014\n")
+    lines = list(field_cases.summary(tmp_path))
+    assert "encounters-a: 2 x merging, 1 x chasing" in lines
+    assert "reversal: reversal_time 3 +- 1.4 (2 runs, not known in 1)" in lines
+    assert field_cases.read(tmp_path)[1]["two-ridges"]["distance"]["1"] == [(0.5, 0.013), (1.0, 0.014)]
+    encounters, *_, ridges, _ = field_cases.draw(tmp_path).axes
+    assert [text.get_text() for text in encounters.get_legend().get_texts()] == ["merging", "chasing"]
+    assert len(ridges.lines) == 1
