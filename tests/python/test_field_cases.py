@@ -26,8 +26,8 @@ def test_ridges_across_the_seam_are_as_far_apart_as_the_shorter_way():
     """One stands at 46 mm of 48 mm, the other goes from 11 mm behind it, through the seam, to 23 mm."""
     t = np.linspace(0, 10, 101)
     apart = 0.011 + 0.0012 * t
-    run = SimpleNamespace(config={"domain": {"size": [0.048, 0.0125, 0.01]}},
-                          dune_columns={0: {"t": t, "Cx": 0 * t + 0.046}, 1: {"t": t[:-1], "Cx": (0.046 + apart[:-1]) % 0.048}})
+    dunes = {0: {"t": t, "Cx": 0 * t + 0.046}, 1: {"t": t[:-1], "Cx": (0.046 + apart[:-1]) % 0.048}}
+    run = SimpleNamespace(config={"domain": {"size": [0.048, 0.0125, 0.01]}}, dune_columns=dunes)
     found = measured(field_cases.ridges(run, ""))
     assert found["first distance"] == pytest.approx(0.011 + 0.0012 * 0.45, abs=1e-6)
     assert found["last distance"] == pytest.approx(0.011 + 0.0012 * 9.4, abs=1e-4)
