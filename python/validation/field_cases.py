@@ -1,5 +1,5 @@
 """field_cases: outcomes of the cases from the literature, from the runs of configs/field/all.toml. `--keep` takes the
-folder of the study, runs/field/all.
+folder of the study, runs/field/all, and draws its runs from above, field_views.png.
 
 A row is a number of a run: of the whole run, or at a time t, every half second. Quantities:
 - `class` of an encounter or obstacle (docs/dune-measures.md), and its columns of encounters.csv or obstacles.csv;
@@ -23,7 +23,7 @@ from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.io.study_folder import StudyFolder, gap_of
 from barchan.stats import spread
-from validation import tables
+from validation import field_views, tables
 
 NAME = "field_cases"
 COLUMNS = "case,realisation,t,quantity,value"
@@ -156,6 +156,7 @@ def save(folder, out):
     if not rows:
         raise MissingData(f"needs finished runs of configs/field/all.toml in {folder}")
     run = next(run for case in study.cases for run in case.runs if not gap_of(run.path))
+    style.save(field_views.draw(study), out, "field_views", "Barchan, cases from the literature", ("png",))
     return tables.keep(out / f"{NAME}.csv", "Cases from the literature: their outcomes",
                        "./barchan sweep configs/field/all.toml", run.summary, [COLUMNS, *rows])
 

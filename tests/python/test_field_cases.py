@@ -5,10 +5,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from fake_runs import ROOT
+from fake_runs import ROOT, fake
 
+from barchan import MissingData
+from barchan.io.run_folder import RunFolder
 from barchan.studies.spec import read_study
-from validation import field_cases
+from validation import field_cases, field_views
 
 OPTIONS = argparse.Namespace(at_once=None, threads=None, out=None)
 
@@ -56,3 +58,20 @@ def test_saved_outcomes_are_counted_and_averaged(tmp_path):
     encounters, *_, ridges, _ = field_cases.draw(tmp_path).axes
     assert [text.get_text() for text in encounters.get_legend().get_texts()] == ["merging", "chasing"]
     assert len(ridges.lines) == 1
+
+
+def test_runs_are_drawn_at_three_times_to_one_scale(monkeypatch):
+    """A row for each case that has finished; all views of a row show the same place, uncropped in one direction."""
+    run = RunFolder(fake())
+    times = run.grain_file.times
+    monkeypatch.setattr(field_views, "TIMES", {"a": (times[0], times[1], times[-1]), "b": (0, 0, 0), "c": (0, 0, 0)})
+    cases = [SimpleNamespace(name=name, run=found) for name, found in (("a", run), ("b", None), ("d", run))]
+    views = field_views.draw(SimpleNamespace(cases=cases)).axes
+    assert len(views) == 3 and len({view.get_xlim() + view.get_ylim() for view in views}) == 1
+    assert [view.texts[0].get_text() for view in views] == [f"{t:.3g} s" for t in (times[0], times[1], times[-1])]
+    box, (x0, x1, z1, z0) = views[0].get_position(), views[0].get_xlim() + views[0].get_ylim()
+    figure = views[0].figure
+    shown = box.height * figure.get_figheight() / (box.width * figure.get_figwidth())
+    assert shown == pytest.approx((z1 - z0) / (x1 - x0), rel=1e-6)
+    with pytest.raises(MissingData, match="needs a finished run"):
+        field_views.draw(SimpleNamespace(cases=cases[1:]))
