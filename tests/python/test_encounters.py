@@ -72,6 +72,20 @@ def test_times_and_grains_of_an_exchange():
     assert abs(one.offset) < 1e-4
 
 
+@pytest.mark.parametrize("joins, kind", [(True, "merging"), (False, "undecided")])
+def test_a_dune_that_dissolves_in_contact_has_merged_if_its_grains_join_the_other(joins, kind):
+    """From 4 to 4.5 s, or for good, the grains of the small one are loose: its name ends."""
+    pair = Pair(built.merging())
+    frames = pair.frames()
+    for frame in frames:
+        if 4 <= frame.time <= (4.5 if joins else 99):
+            frame.dune[pair.heap[frame.id] == 0] = NONE
+    lineage = follow(frames, pair.bed)
+    one, = find(lineage, pair.bed)
+    assert not lineage.present[-1, UP]
+    assert (one.kind, one.t_end) == (kind, pytest.approx(TIMES[-1] if joins else 3.75))
+
+
 def test_heaps_are_those_of_the_run():
     """Grains of the file's heaps, not of the dunes of the first frame, are counted where it has them."""
     pair = Pair(built.passing())

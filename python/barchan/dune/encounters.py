@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from barchan.dune.current import direction
-from barchan.dune.lineage import NONE, Lineage, follow
+from barchan.dune.lineage import HALF, NONE, Lineage, follow
 from barchan.dune.shape import Bed
 from barchan.dune.tracks import Tracks, tracks
 from barchan.errors import MissingData
@@ -200,8 +200,8 @@ def _in_order(lineage: Lineage, bed: Bed, a: int, b: int, start: int, along: Alo
 
 
 class _Pair:
-    """One encounter, from the frame `start` to the last one in which both sides are there. A side is a dune and those
-    that were born of it since."""
+    """One encounter, from the frame `start` to the `end`, the last one in which both sides are there. A side is a dune
+    and those that were born of it since."""
 
     def __init__(self, lineage: Lineage, bed: Bed, up: int, down: int, start: int, way: np.ndarray) -> None:
         self.lineage, self.start = lineage, start
@@ -217,6 +217,7 @@ class _Pair:
         touching = [frame for frame in range(start, self.end + 1) if self._touch(frame)]
         self.contact = touching[0] if touching else None
         self.apart = touching[-1] + 1 if touching and touching[-1] < self.end else None
+        self.last = self._last()
 
     def _side(self, name: int) -> set[int]:
         side = {name}
@@ -228,6 +229,17 @@ class _Pair:
     def _touch(self, frame: int) -> bool:
         bodies = [{self.lineage.body[frame, name] for name in side} - {NONE} for side in self.sides]
         return bool(bodies[0] & bodies[1])
+
+    def _last(self) -> int:
+        """The last frame of both; where one dissolves while they touch, and the other takes up half of its grains, that
+        of the other."""
+        frame, old, new, number = self.lineage.moves.T
+        for gone, other in (self.sides, self.sides[::-1]) if self._touch(self.end) else ():
+            there = np.nonzero(self.lineage.present[:, sorted(other)].any(axis=1))[0][-1]
+            taken = number[(frame > self.end) & np.isin(old, list(gone)) & np.isin(new, list(other))].sum()
+            if there > self.end and taken >= HALF * np.nansum(self.lineage.n_grains[self.end, sorted(gone)]):
+                return int(there)
+        return self.end
 
     def _counts(self, name: int) -> bool:
         """Whether a new dune is large enough and lasts."""
@@ -252,7 +264,7 @@ class _Pair:
         if self.apart is not None:
             changed = sum(self._changed(*order, self.contact) for order in (self.sides, self.sides[::-1]))
             return EXCHANGE if changed >= EXCHANGED * self.lighter else CHASING
-        return MERGING if t[self.end] - t[self.contact] >= LASTS * (1 - 1e-9) else UNDECIDED
+        return MERGING if t[self.last] - t[self.contact] >= LASTS * (1 - 1e-9) else UNDECIDED
 
     def tell(self) -> tuple[Encounter, set[int]]:
         """The encounter, and all that took part in it."""
@@ -264,7 +276,7 @@ class _Pair:
         distance = self.distance
         up, down = lineage.n_grains[self.start, [self.up, self.down]]
         return Encounter(
-            self.up, self.down, self._kind(splits, ejected), lineage.t[self.start], lineage.t[self.end],
+            self.up, self.down, self._kind(splits, ejected), lineage.t[self.start], lineage.t[self.last],
             self._time(births[splits[0]].frame if splits else None), self._time(self.contact), self._time(self.apart),
             float(up / down), self.aside, float(distance[0]), float(distance.min()), float(distance[-1]),
             self._changed(*self.sides, self.start), self._changed(*self.sides[::-1], self.start),
