@@ -7,7 +7,6 @@ from made_up_encounters import LARGE, SMALL, TIMES, D, Pair, write_run
 
 import barchan
 from barchan.dune import encounter_forces
-from barchan.dune.lineage import NONE
 
 WEIGHT = 1500 * 9.81 * np.pi / 6 * D**3
 ON = np.array([0.5, 0.2])  # of the weight, on grains of the small and the large heap
@@ -66,8 +65,9 @@ def test_grains_that_change_sides(tmp_path):
     found = of(tmp_path, built.passing())
     assert [one.moment for one in found.maps][-1] == "apart"
     taken = np.count_nonzero(np.arange(len(LARGE)) % 8 == 0) / len(LARGE)
-    assert found.foreign[:, -1] == pytest.approx([0, taken], abs=0.01)
-    assert found.foreign[:, 0] == pytest.approx([0, 0], abs=0.01)
+    for share in found.foreign, found.amid:
+        assert share[:, -1] == pytest.approx([0, taken], abs=0.01)
+        assert share[:, 0] == pytest.approx([0, 0], abs=0.01)
 
 
 def test_moments_without_contact(tmp_path):
@@ -85,8 +85,7 @@ def test_in_the_wake(origin, periodic):
     low, high = np.percentile(SMALL[:, 2], encounter_forces.SIDES)
     force = np.where((offset[:, 2] > low) & (offset[:, 2] < high), 0.1, 0.4)
     force[offset[:, 0] > D] = 9.0
-    name = np.where(grains.dune == NONE, NONE, pair.heap[grains.id])
-    sample = encounter_forces.sample_of(grains, force, name, (0, 1), pair.bed)
+    sample = encounter_forces.sample_of(grains, force, pair.heap[grains.id], (0, 1), pair.bed)
     behind, beside = encounter_forces.behind_and_beside(sample, (0, 1), np.array((1.0, 0.0)))
     assert behind.mean() == pytest.approx(0.1, abs=0.02) and beside.mean() == pytest.approx(0.4, abs=0.02)
 

@@ -29,14 +29,16 @@ SIDES = (5, 95)  # [%] quantiles of a dune's grains across the current between w
 
 @dataclass
 class Sample:
-    """N grains of one frame: x, z [m] from the centroid of both dunes, force over weight, whether at a surface, dune
-    by name, cross-section [m2]. centroids (2, 2): x, z [m] of upstream and downstream dune from there."""
+    """N grains of one frame: x, z [m] from the centroid of both dunes, force over weight, whether at the surface of a
+    dune, whether loose, the dune from which it is, cross-section [m2]. centroids (2, 2): x, z [m] of what is of the
+    upstream and the downstream dune, NaN where nothing is in a dune."""
 
     time: float
     x: np.ndarray
     force: np.ndarray
     surface: np.ndarray
-    name: np.ndarray
+    loose: np.ndarray
+    home: np.ndarray
     area: np.ndarray
     centroids: np.ndarray
 
@@ -44,8 +46,8 @@ class Sample:
 @dataclass
 class Map:
     """Means over `frames` frames from `start` to `end` [s]. edges: of bins along x and z, from the centroid of both
-    dunes [m]. By bin: n, grains of all frames; force, NaN without grains. cover (2): summed cross-sections of the
-    upstream and downstream dune's grains over the area of the bin. centroids as in Sample."""
+    dunes [m]. By bin: n, grains of all frames; force, NaN without grains. cover (2): summed cross-sections of what is
+    of the upstream and the downstream dune over the area of the bin. centroids as in Sample."""
 
     moment: str
     start: float
@@ -60,27 +62,30 @@ class Map:
 
 @dataclass
 class Forces:
-    """F frames with forces: t (F) [s]; touching (F). Of upstream and downstream dune (2, F), NaN where it is not there:
-    force, mean at the surface over weight; foreign, share of its first grains that lie in the other dune. wake (2, F):
-    force on the upstream half of the downstream dune, behind the upstream one and beside; NaN while they touch."""
+    """F frames with forces: t (F) [s]; touching (F). Of upstream and downstream dune (2, F): force, mean at the surface
+    over weight, NaN where the dune is not there; foreign, share of its first grains that bear the other's name; amid,
+    share that lies among more grains of the other. wake (2, F): force on the upstream half of the downstream dune,
+    behind the upstream one and beside; NaN where they touch or one is not there."""
 
     encounter: Encounter
     t: np.ndarray
     touching: np.ndarray
     force: np.ndarray
     foreign: np.ndarray
+    amid: np.ndarray
     wake: np.ndarray
     maps: list[Map]
 
     def means(self, values: np.ndarray) -> np.ndarray:
-        """(3, n) of consecutive FRAMES frames: middle [s], mean and half its 95 % interval."""
+        """(3, n) of consecutive FRAMES frames or some more: middle [s], mean and half its 95 % interval, NaN where less
+        than half of them have a value."""
         rows = []
-        for first in range(0, len(self.t), FRAMES):
-            part = values[first:first + FRAMES]
-            if np.isfinite(part).all() and len(part) > 1:
-                found = spread(part.tolist())
-                rows.append((self.t[first:first + FRAMES].mean(), found.mean, found.interval))
-        return np.array(rows).reshape(-1, 3).T
+        for part in np.array_split(np.arange(len(self.t)), max(1, len(self.t) // FRAMES)):
+            known = part[np.isfinite(values[part])]
+            enough = len(known) >= max(2, len(part) / 2)
+            found = spread(values[known].tolist() if enough else [np.nan])
+            rows.append((self.t[part].mean(), found.mean, found.interval))
+        return np.array(rows).T
 
 
 def of_run(run: RunFolder) -> Forces:
@@ -92,10 +97,9 @@ def of_run(run: RunFolder) -> Forces:
     if file is None:
         raise MissingData("needs grains.h5 with forces (output.grain_forces = true)")
     one = next((each for each in found if np.isfinite(each.t_contact)), found[0])
-    chosen = [frame for frame in file.frames if frame[0] > 0 and within(frame[0], one.t_start, one.t_end)]
-    if len(chosen) < 2:
-        raise MissingData("needs two frames of grains.h5 with forces "
-                          f"between t = {one.t_start:g} s and {one.t_end:g} s")
+    chosen = [frame for frame in file.frames if frame[0] > 0 and frame[0] >= one.t_start * (1 - 1e-9)]
+    if not chosen:
+        raise MissingData(f"needs a frame of grains.h5 with forces after t = {one.t_start:g} s")
     return _read(run, file, chosen, lineage, one)
 
 
@@ -112,31 +116,33 @@ def _read(run: RunFolder, file: FrameFile, frames: list[tuple[float, str]], line
     windows = moments(lineage, one, t, touching)
     kept: dict[int, Sample] = {}
     wanted = {index for rows in windows.values() for index in rows}
-    force, foreign, wake = np.full((3, 2, len(t)), np.nan)
+    force, foreign, amid, wake = np.full((4, 2, len(t)), np.nan)
+    total = [max(1, np.count_nonzero(home == dune)) for dune in pair]
     with file.open() as content:
         for index, (time, group) in enumerate(frames):
             way = direction(run.config, time)
             grains, along = read_frame(content[group], time, way)
             name = _values_of(grains.id, *named[index])
             name[grains.dune == NONE] = NONE
+            origin = _values_of(grains.id, np.arange(len(home)), home)
             weight = float(submerged_weight(run.config, grains.d.mean()))
-            sample = sample_of(grains, along / weight, name, pair, bed)
+            moved = [np.count_nonzero((origin == dune) & (name == other)) for dune, other in zip(pair, pair[::-1])]
+            foreign[:, index] = np.divide(moved, total)
+            amid[:, index] = np.divide(among_others(grains, origin, pair, bed), total)
+            sample = sample_of(grains, along / weight, origin, pair, bed)
             if sample is None:
                 continue
-            force[:, index] = [np.mean(sample.force[sample.surface & (name == dune)]) for dune in pair]
-            if not touching[index]:
-                wake[:, index] = [values.mean() if len(values) >= FEWEST else np.nan
-                                  for values in behind_and_beside(sample, pair, way)]
-            inside = in_other(grains, _values_of(grains.id, np.arange(len(home)), home), pair, bed)
-            foreign[:, index] = [count / np.count_nonzero(home == dune) for count, dune in zip(inside, pair)]
+            force[:, index] = [mean_of(sample.force[sample.surface & (name == dune)]) for dune in pair]
+            if np.isfinite(force[:, index]).all() and not touching[index]:
+                wake[:, index] = [mean_of(values) for values in behind_and_beside(sample, pair, way)]
             if index in wanted:
                 kept[index] = sample
     sizes = bed.lengths / number_of_bins(bed, float(tracks(run).read(0).d.mean()))
     maps = [map_of(moment, [kept[row] for row in rows if row in kept], pair, sizes) for moment, rows in windows.items()
             if any(row in kept for row in rows)]
     if not maps:
-        raise MissingData("needs a frame of grains.h5 with forces in which both dunes are there")
-    return Forces(one, t, touching, force, foreign, wake, maps)
+        raise MissingData("needs a frame of grains.h5 with forces in which a dune is there")
+    return Forces(one, t, touching, force, foreign, amid, wake, maps)
 
 
 def _names_at(run: RunFolder, times: list[float]) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -162,6 +168,11 @@ def _values_of(wanted: np.ndarray, ids: np.ndarray, values: np.ndarray) -> np.nd
     return np.where(ids[at] == wanted, values[at], NONE)
 
 
+def mean_of(values: np.ndarray) -> float:
+    """NaN of fewer than FEWEST values."""
+    return float(values.mean()) if len(values) >= FEWEST else np.nan
+
+
 def read_frame(group: Any, time: float, along: np.ndarray) -> tuple[Grains, np.ndarray]:
     """The grains by id, and the water's force on each along a unit vector (2) of the current [N]."""
     there = [name for name in WATER if name in group]
@@ -176,56 +187,64 @@ def read_frame(group: Any, time: float, along: np.ndarray) -> tuple[Grains, np.n
 
 
 def moments(lineage: Lineage, one: Encounter, t: np.ndarray, touching: np.ndarray) -> dict[str, range]:
-    """{moment: rows of t}: FRAMES frames each, without those that would overlap. The contact is the first that lasts as
-    long, else the first of all."""
+    """{moment: rows of t}: at most four of FRAMES frames each, of which none is in two. The contact is the first that
+    lasts as long, else the first of all; there is a moment halfway after it where there is none of the approach."""
+    count = len(t)
+
     def rows(first: int) -> range:
-        return range(max(0, first), min(first + FRAMES, len(t)))
+        return range(max(0, first), min(first + FRAMES, count))
 
     if not np.isfinite(one.t_contact):
         apart = np.hypot(*(getattr(lineage, axis)[:, one.downstream] - getattr(lineage, axis)[:, one.upstream]
                            for axis in "xz"))
         inside = within(lineage.t, t[0], t[-1]) & np.isfinite(apart)
-        closest = lineage.t[inside][np.argmin(apart[inside])]
-        middle = int(np.argmin(abs(t - closest))) - FRAMES // 2
-        plan = [("start", rows(0)), ("closest", rows(middle)), ("end", rows(len(t) - FRAMES))]
+        least = lineage.t[inside][np.argmin(apart[inside])] if inside.any() else t[0]
+        closest = int(np.argmin(abs(t - least)))
+        plan = {"start": rows(0), "closest": rows(closest - FRAMES // 2), "end": rows(count - FRAMES)}
+        order: tuple[str, ...] = ("start", "end", "closest")
     else:
-        lasting = [row for row in range(len(t) - FRAMES + 1) if touching[row:row + FRAMES].all()]
+        lasting = [row for row in range(count - FRAMES + 1) if touching[row:row + FRAMES].all()]
         contact = lasting[0] if lasting else int(np.searchsorted(t, one.t_contact * (1 - 1e-9)))
-        parted = int(np.searchsorted(t, one.t_apart * (1 - 1e-9))) if np.isfinite(one.t_apart) else len(t)
-        last = ("apart", rows(parted)) if parted <= len(t) - FRAMES else ("end", rows(len(t) - FRAMES))
-        before = range(max(0, contact - FRAMES), contact)
-        plan = [("approach", rows(contact // 2 - FRAMES)), ("just before contact", before),
-                ("contact", rows(contact)), last]
+        parted = int(np.searchsorted(t, one.t_apart * (1 - 1e-9))) if np.isfinite(one.t_apart) else count
+        last = "apart" if parted <= count - FRAMES else "end"
+        end = min(parted, count - FRAMES)
+        plan = {"approach": rows(contact // 2 - FRAMES),
+                "just before contact": range(max(0, contact - FRAMES), contact),
+                "contact": rows(contact), "halfway": rows((contact + end) // 2), last: rows(end)}
+        order = ("just before contact", "contact", last, "approach", "halfway")
     found: dict[str, range] = {}
-    for moment, chosen in sorted(plan, key=lambda each: each[0] in ("approach", "closest")):
-        if len(chosen) and not any(set(chosen) & set(other) for other in found.values()):
-            found[moment] = chosen
-    return {moment: found[moment] for moment, _ in plan if moment in found}
+    for moment in order:
+        taken = {row for chosen in found.values() for row in chosen}
+        if plan[moment] and len(found) < 4 and not taken & set(plan[moment]):
+            found[moment] = plan[moment]
+    return {moment: found[moment] for moment in plan if moment in found}
 
 
-def sample_of(grains: Grains, force: np.ndarray, name: np.ndarray, pair: tuple[int, int], bed: Bed) -> Sample | None:
-    """None where one of the two dunes has no grain. `force` (N): over weight; `name` (N): the dune of each."""
-    places = []
-    for dune in pair:
-        rows = np.nonzero(name == dune)[0]
-        if not len(rows):
-            return None
-        sand = Sand.of(grains, rows, bed)
-        places.append((sand.centroid, float(np.sum(sand.radius**3))))
-    (up, v_up), (down, v_down) = places
-    apart = bed.nearest(down - up)
-    middle = up + apart * v_down / (v_up + v_down)
-    centroids = np.array([bed.nearest(up - middle), bed.nearest(down - middle)])[:, (0, 2)]
-    return Sample(grains.time, bed.nearest(grains.x - middle)[:, (0, 2)], force, at_surface(grains, bed), name,
-                  np.pi / 4 * grains.d**2, centroids)
+def sample_of(grains: Grains, force: np.ndarray, home: np.ndarray, pair: tuple[int, int], bed: Bed) -> Sample | None:
+    """None where no grain of the two is in a dune. force (N): over weight; home (N): the dune from which each is."""
+    assert grains.dune is not None
+    places, volumes = np.full((2, 3), np.nan), np.zeros(2)
+    for index, dune in enumerate(pair):
+        rows = np.nonzero((home == dune) & (grains.dune != NONE))[0]
+        if len(rows):
+            sand = Sand.of(grains, rows, bed)
+            places[index], volumes[index] = sand.centroid, np.sum(sand.radius**3)
+    known = volumes > 0
+    if not known.any():
+        return None
+    first = places[known][0]
+    middle = first + np.average(bed.nearest(places[known] - first), axis=0, weights=volumes[known])
+    return Sample(grains.time, bed.nearest(grains.x - middle)[:, (0, 2)], force, at_surface(grains, bed),
+                  grains.dune == NONE, home, np.pi / 4 * grains.d**2, bed.nearest(places - middle)[:, (0, 2)])
 
 
 def behind_and_beside(sample: Sample, pair: tuple[int, int], way: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Forces over weight on surface grains of the downstream dune upstream of its centroid: between the SIDES of the
     upstream dune, and not. way: unit vector (2) of the current."""
     across = sample.x @ np.array((-way[1], way[0]))
-    low, high = np.percentile(across[sample.name == pair[0]], SIDES)
-    half = sample.surface & (sample.name == pair[1]) & ((sample.x - sample.centroids[1]) @ way < 0)
+    ahead = across[sample.surface & (sample.home == pair[0])]
+    low, high = np.percentile(ahead, SIDES) if len(ahead) else (np.inf, -np.inf)
+    half = sample.surface & (sample.home == pair[1]) & ((sample.x - sample.centroids[1]) @ way < 0)
     inside = (across >= low) & (across <= high)
     return sample.force[half & inside], sample.force[half & ~inside]
 
@@ -242,9 +261,9 @@ def at_surface(grains: Grains, bed: Bed) -> np.ndarray:
     return result
 
 
-def in_other(grains: Grains, home: np.ndarray, pair: tuple[int, int], bed: Bed) -> tuple[int, int]:
-    """How many grains of each dune of `pair` lie in the other one: in a dune, in a bin where more grains are of the
-    other one. home (N): the dune by name from which each grain is."""
+def among_others(grains: Grains, home: np.ndarray, pair: tuple[int, int], bed: Bed) -> tuple[int, int]:
+    """How many grains of each dune of `pair` lie in a dune, in a bin with more grains of the other one. home (N): the
+    dune by name from which each grain is."""
     assert grains.dune is not None
     shape = number_of_bins(bed, float(grains.d.mean()))
     place = np.floor(grains.x[:, (0, 2)] / (bed.lengths / shape)).astype(int)
@@ -263,11 +282,12 @@ def map_of(moment: str, samples: list[Sample], pair: tuple[int, int], sizes: np.
     cover = np.zeros((2, *(2 * half + 1)))
     for sample in samples:
         place = tuple(np.round(sample.x / sizes).astype(int).T + half[:, None])
-        top = tuple(axis[sample.surface] for axis in place)
+        drawn = sample.surface | sample.loose
+        top = tuple(axis[drawn] for axis in place)
         np.add.at(n, top, 1)
-        np.add.at(force, top, sample.force[sample.surface])
+        np.add.at(force, top, sample.force[drawn])
         for index, dune in enumerate(pair):
-            own = sample.name == dune
+            own = sample.home == dune
             np.add.at(cover[index], tuple(axis[own] for axis in place), sample.area[own])
     with np.errstate(invalid="ignore"):
         mean = force / n

@@ -1,9 +1,10 @@
 """encounter_forces: what the water does to two dunes that meet, and whose grains lie in whose dune.
 
 (a) to (d) from above, moving with the centroid of both dunes: the water's force along the current on grains at the
-surface, over the submerged weight of a mean grain. Lines: outlines of the dunes by name, dots: their centroids. Below
-against time: the same force as mean over each dune, and the share of each one's first grains that lies in the other;
-grey: they touch. Definitions: docs/dune-measures.md, "Encounters".
+surface, over the submerged weight of a mean grain. Lines: outlines of what is of each dune, dots: its centroid. Below
+against time: the same force as mean over each dune by name; the share of each one's first grains that is in the other
+by name, and that lies amid more grains of the other. Grey: they touch. Definitions: docs/dune-measures.md,
+"Encounters".
 """
 
 import numpy as np
@@ -12,15 +13,17 @@ from matplotlib.figure import Figure
 
 from barchan.dune import encounter_forces
 from barchan.dune.current import always_along_x
-from barchan.dune.detect import RIM_COVER
+from barchan.dune.detect import RIM_COVER, components
 from barchan.figures import style
 from barchan.figures.encounters import COLOURS
 from barchan.figures.result import keep, say
 from barchan.stats import spread
 
-FEWEST = 6       # grains of a bin that is drawn
-CURVES = 2.9     # [in]
-MARGIN = 1.0e-3  # [m] around the outlines
+FEWEST = 6         # grains of a bin that is drawn
+FEWEST_POINTS = 9  # of an outline: less is one bin or two
+CURVES = 2.9       # [in]
+MARGIN = 1.0e-3    # [m] around the outlines
+CLUMP = 16         # bins of what is always seen
 
 
 def draw(run, ax=None):
@@ -46,10 +49,12 @@ def draw(run, ax=None):
 
 
 def window_of(maps):
-    """(x0, x1, z0, z1) [m] around both dunes in all maps."""
+    """(x0, x1, z0, z1) [m] around both dunes in all maps, without clumps of a few bins."""
     ends = []
     for one in maps:
-        held = np.nonzero(one.cover.max(axis=0) >= RIM_COVER)
+        piece = components(one.cover.sum(axis=0) >= RIM_COVER, (False, False))
+        numbers, bins = np.unique(piece[piece >= 0], return_counts=True)
+        held = np.nonzero(np.isin(piece, numbers[bins >= min(CLUMP, bins.max())]))
         ends += [(edges[rows.min()], edges[rows.max() + 1]) for edges, rows in zip(one.edges, held)]
     x, z = np.array(ends[::2]), np.array(ends[1::2])
     return x[:, 0].min() - MARGIN, x[:, 1].max() + MARGIN, z[:, 0].min() - MARGIN, z[:, 1].max() + MARGIN
@@ -63,7 +68,8 @@ def draw_maps(figure, panels, maps, window, colours):
         image = axes.pcolormesh(x, z, values.T, vmin=-limit, vmax=limit, cmap=style.FORCE_MAP, rasterized=True)
         middles = [0.5 * (edges[1:] + edges[:-1]) for edges in (x, z)]
         for cover, centroid, colour in zip(one.cover, 1e3 * one.centroids, colours):
-            for line in contour_generator(*middles, cover.T).lines(RIM_COVER):
+            lines = contour_generator(*middles, cover.T).lines(RIM_COVER)
+            for line in (line for line in lines if len(line) >= FEWEST_POINTS):
                 axes.plot(*line.T, color=colour, lw=1.2)
             axes.plot(*centroid, "o", mfc=colour, mec="white", mew=0.8, ms=5)
         style.panel_label(axes, index)
@@ -91,20 +97,27 @@ def draw_curves(panels, found, pair, colours, first):
     highest = 0.0
     for force, colour, dashes, label in curves:
         t, mean, interval = found.means(force)
-        if len(t):
-            forces.plot(t, mean, color=colour, ls=dashes, label=label, marker=style.mark_if_few(t), ms=2.5)
-            highest = max(highest, mean.max())
+        if np.isfinite(mean).any():
+            forces.plot(t, mean, color=colour, ls=dashes, label=label, marker="o", ms=2)
+            highest = max(highest, np.nanmax(mean))
         if dashes == "-":
             forces.fill_between(t, mean - interval, mean + interval, color=colour, alpha=0.2, lw=0)
-    for foreign, colour, name, other in zip(found.foreign, colours, pair, pair[::-1]):
-        shares.plot(found.t, 100 * foreign, color=colour, label=f"of dune {name} in dune {other}")
+    for values, dashes, where in ((found.foreign, "-", "in"), (found.amid, "--", "amid grains of")):
+        for share, colour, name, other in zip(values, colours, pair, pair[::-1]):
+            shares.plot(found.t, 100 * share, color=colour, ls=dashes, label=f"of dune {name} {where} dune {other}")
+    for force, name, colour in zip(found.force, pair, colours):
+        last = np.nonzero(np.isfinite(force))[0][-1:]
+        if len(last) and found.t[last[0]] < found.t[-1]:
+            forces.annotate(f" no dune {name} from here on", (found.t[last[0]], 0.03), color=colour, fontsize=7.5,
+                            xycoords=("data", "axes fraction"))
+            forces.axvline(found.t[last[0]], color=colour, lw=0.8, ls=(0, (1, 1.5)))
     for index, axes in enumerate(panels):
         axes.fill_between(found.t, 0, 1, where=found.touching, transform=axes.get_xaxis_transform(), color="0.9", lw=0,
                           zorder=0)
         axes.legend(loc="upper left", ncols=2)
         style.panel_label(axes, first + index)
     forces.set(ylabel="force / weight", ylim=(0, 1.7 * highest))
-    shares.set(xlabel="$t$ (s)", ylabel="grains (%)", xlim=found.t[[0, -1]], ylim=(0, 1.4 * shares.get_ylim()[1]))
+    shares.set(xlabel="$t$ (s)", ylabel="grains (%)", xlim=found.t[[0, -1]], ylim=(0, 1.6 * shares.get_ylim()[1]))
 
 
 def sentences(found, pair):
@@ -112,12 +125,13 @@ def sentences(found, pair):
     for one in found.maps:
         chosen = (found.t >= one.start) & (found.t <= one.end)
         up, down, *wake = (mean_of(values[chosen]) for values in (*found.force, *found.wake))
+        up, down = up or "not known", down or "not known"
         halves = f" (its upstream half: {wake[0]} behind dune {pair[0]}, {wake[1]} beside)" if all(wake) else ""
         told.append(f"{one.moment}, {one.start:.3g} to {one.end:.3g} s: force of the water on surface grains over "
                     f"their weight {up} on dune {pair[0]}, {down} on dune {pair[1]} downstream{halves}")
-    for name, foreign in zip(pair, found.foreign):
-        last = foreign[np.isfinite(foreign)][-1]
-        told.append(f"dune {name}: {100 * last:.1f} % of its first grains lie in the other dune at the end")
+    for name, foreign, amid in zip(pair, found.foreign, found.amid):
+        told.append(f"dune {name}: {100 * foreign[-1]:.1f} % of its first grains are in the other dune by name at the "
+                    f"end, {100 * amid[-1]:.1f} % lie amid more grains of the other")
     return told
 
 
@@ -136,6 +150,7 @@ def keep_tables(figure, found):
         "t": found.t, "touching": found.touching,
         **{f"force_{side}": values for side, values in zip(sides, found.force)},
         **{f"foreign_{side}": values for side, values in zip(sides, found.foreign)},
+        **{f"amid_{side}": values for side, values in zip(sides, found.amid)},
         "force_behind": found.wake[0], "force_beside": found.wake[1]}, most=None)
     rows = []
     for number, one in enumerate(found.maps):
