@@ -18,7 +18,7 @@ from barchan.io.study_folder import gap_of
 TIMES = {
     "turn-slow": (2.9, 5.9, 9), "turn-fast": (2.9, 5.9, 9), "reversal": (2.9, 6, 10),
     "two-densities": (0, 3, 6), "two-ridges": (0, 8, 16), "two-heaps": (0, 4, 8),
-    "encounters-700-in-line": (0, 4, 8), "encounters-1000-offset": (0, 4, 8),
+    "encounters-1000-in-line": (0, 4, 8), "encounters-1600-beside": (0, 4, 8),
     "barchan-meets-cylinder": (2, 5, 9), "barchan-meets-dune": (2, 5, 9), "barchan-meets-crater": (0, 4, 8),
     "fed-dune": (2, 4, 6),
 }
