@@ -77,17 +77,18 @@ def test_moments_without_contact(tmp_path):
 
 
 @pytest.mark.parametrize("origin, periodic", PLACES, ids=ACROSS)
-def test_in_the_wake(origin, periodic):
-    """The water pushes less between the sides of the small dune, and only the upstream half counts."""
+def test_the_upstream_end(origin, periodic):
+    """Only there is the force known."""
     pair = Pair(built.merging(), origin=origin, periodic=periodic)
     grains = pair.frame(0.0)
     offset = pair.bed.nearest(grains.x - np.array([built.X1, 0, 0.015]) - pair.origin)
-    low, high = np.percentile(SMALL[:, 2], encounter_forces.SIDES)
-    force = np.where((offset[:, 2] > low) & (offset[:, 2] < high), 0.1, 0.4)
-    force[offset[:, 0] > D] = 9.0
+    force = np.where((offset[:, 0] < -2.0e-3) & (abs(offset[:, 2]) < 8 * D), 0.1, 9.0)
     sample = encounter_forces.sample_of(grains, force, pair.heap[grains.id], (0, 1), pair.bed)
-    behind, beside = encounter_forces.behind_and_beside(sample, (0, 1), np.array((1.0, 0.0)))
-    assert behind.mean() == pytest.approx(0.1, abs=0.02) and beside.mean() == pytest.approx(0.4, abs=0.02)
+    large = pair.heap[grains.id] == 1
+    for way, known in ((1.0, True), (-1.0, False)):
+        end = encounter_forces.upstream_end(sample, large, np.array((way, 0.0)), D)
+        assert np.count_nonzero(end) > 100
+        assert (force[end] == (0.1 if known else 9.0)).all()
 
 
 def test_only_the_surface_counts():

@@ -24,7 +24,8 @@ from barchan.stats import spread, within
 WATER = ("force_drag", "force_added_mass", "force_lift", "force_pressure_gradient", "force_stress", "force_flow")
 FRAMES = 6    # of a mean over time
 FEWEST = 20   # grains of which a mean on part of a dune is formed
-SIDES = (5, 95)  # [%] quantiles of a dune's grains across the current between which its wake lies
+END = 10.0    # [d] along the current, of the upstream end of a dune
+MIDDLE = 7.5  # [d] across the current, from the middle of a dune to both sides of its upstream end
 
 
 @dataclass
@@ -64,8 +65,7 @@ class Map:
 class Forces:
     """F frames with forces: t (F) [s]; touching (F). Of upstream and downstream dune (2, F): force, mean at the surface
     over weight, NaN where the dune is not there; foreign, share of its first grains that bear the other's name; amid,
-    share that lies among more grains of the other. wake (2, F): force on the upstream half of the downstream dune,
-    behind the upstream one and beside; NaN where they touch or one is not there."""
+    share that lies among more grains of the other; end, force at the upstream end of the dune alone."""
 
     encounter: Encounter
     t: np.ndarray
@@ -73,7 +73,7 @@ class Forces:
     force: np.ndarray
     foreign: np.ndarray
     amid: np.ndarray
-    wake: np.ndarray
+    end: np.ndarray
     maps: list[Map]
 
     def means(self, values: np.ndarray) -> np.ndarray:
@@ -116,7 +116,7 @@ def _read(run: RunFolder, file: FrameFile, frames: list[tuple[float, str]], line
     windows = moments(lineage, one, t, touching)
     kept: dict[int, Sample] = {}
     wanted = {index for rows in windows.values() for index in rows}
-    force, foreign, amid, wake = np.full((4, 2, len(t)), np.nan)
+    force, foreign, amid, end = np.full((4, 2, len(t)), np.nan)
     total = [max(1, np.count_nonzero(home == dune)) for dune in pair]
     with file.open() as content:
         for index, (time, group) in enumerate(frames):
@@ -133,8 +133,8 @@ def _read(run: RunFolder, file: FrameFile, frames: list[tuple[float, str]], line
             if sample is None:
                 continue
             force[:, index] = [mean_of(sample.force[sample.surface & (name == dune)]) for dune in pair]
-            if np.isfinite(force[:, index]).all() and not touching[index]:
-                wake[:, index] = [mean_of(values) for values in behind_and_beside(sample, pair, way)]
+            end[:, index] = [mean_of(sample.force[upstream_end(sample, name == dune, way, grains.d.mean())])
+                             for dune in pair]
             if index in wanted:
                 kept[index] = sample
     sizes = bed.lengths / number_of_bins(bed, float(tracks(run).read(0).d.mean()))
@@ -142,7 +142,7 @@ def _read(run: RunFolder, file: FrameFile, frames: list[tuple[float, str]], line
             if any(row in kept for row in rows)]
     if not maps:
         raise MissingData("needs a frame of grains.h5 with forces in which a dune is there")
-    return Forces(one, t, touching, force, foreign, amid, wake, maps)
+    return Forces(one, t, touching, force, foreign, amid, end, maps)
 
 
 def _names_at(run: RunFolder, times: list[float]) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -238,15 +238,15 @@ def sample_of(grains: Grains, force: np.ndarray, home: np.ndarray, pair: tuple[i
                   grains.dune == NONE, home, np.pi / 4 * grains.d**2, bed.nearest(places - middle)[:, (0, 2)])
 
 
-def behind_and_beside(sample: Sample, pair: tuple[int, int], way: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Forces over weight on surface grains of the downstream dune upstream of its centroid: between the SIDES of the
-    upstream dune, and not. way: unit vector (2) of the current."""
-    across = sample.x @ np.array((-way[1], way[0]))
-    ahead = across[sample.surface & (sample.home == pair[0])]
-    low, high = np.percentile(ahead, SIDES) if len(ahead) else (np.inf, -np.inf)
-    half = sample.surface & (sample.home == pair[1]) & ((sample.x - sample.centroids[1]) @ way < 0)
-    inside = (across >= low) & (across <= high)
-    return sample.force[half & inside], sample.force[half & ~inside]
+def upstream_end(sample: Sample, own: np.ndarray, way: np.ndarray, d: float) -> np.ndarray:
+    """(N) which grains at the surface of a dune make its upstream end: within END of its most upstream ones and MIDDLE
+    of its middle. own (N): which are of it; way: unit vector (2) of the current; d: mean diameter [m]."""
+    chosen = own & sample.surface
+    if not chosen.any():
+        return chosen
+    along, across = sample.x @ way, sample.x @ np.array((-way[1], way[0]))
+    first, middle = np.percentile(along[chosen], 1), np.mean(across[chosen])
+    return chosen & (along < first + END * d) & (abs(across - middle) < MIDDLE * d)
 
 
 def at_surface(grains: Grains, bed: Bed) -> np.ndarray:

@@ -2,9 +2,9 @@
 
 (a) to (d) from above, moving with the centroid of both dunes: the water's force along the current on grains at the
 surface, over the submerged weight of a mean grain. Lines: outlines of what is of each dune, dots: its centroid. Below
-against time: the same force as mean over each dune by name; the share of each one's first grains that is in the other
-by name, and that lies amid more grains of the other. Grey: they touch. Definitions: docs/dune-measures.md,
-"Encounters".
+against time: the same force as mean over each dune by name, and over its upstream end; the share of each one's first
+grains that is in the other by name, and that lies amid more grains of the other. Grey: they touch. Definitions:
+docs/dune-measures.md, "Encounters".
 """
 
 import numpy as np
@@ -89,19 +89,17 @@ def draw_maps(figure, panels, maps, window, colours):
 
 def draw_curves(panels, found, pair, colours, first):
     forces, shares = panels
-    up, down = pair
     curves = [(force, colour, "-", f"dune {name}, {role}")
               for force, colour, name, role in zip(found.force, colours, pair, ("upstream", "downstream"))]
-    curves += [(force, colours[1], dashes, f"upstream half of dune {down}, {where} dune {up}")
-               for force, dashes, where in zip(found.wake, ("--", ":"), ("behind", "beside"))]
+    curves += [(force, colour, "--", f"upstream end of dune {name}")
+               for force, colour, name in zip(found.end, colours, pair)]
     highest = 0.0
     for force, colour, dashes, label in curves:
         t, mean, interval = found.means(force)
         if np.isfinite(mean).any():
             forces.plot(t, mean, color=colour, ls=dashes, label=label, marker="o", ms=2)
             highest = max(highest, np.nanmax(mean))
-        if dashes == "-":
-            forces.fill_between(t, mean - interval, mean + interval, color=colour, alpha=0.2, lw=0)
+        forces.fill_between(t, mean - interval, mean + interval, color=colour, alpha=0.15, lw=0)
     for values, dashes, where in ((found.foreign, "-", "in"), (found.amid, "--", "amid grains of")):
         for share, colour, name, other in zip(values, colours, pair, pair[::-1]):
             shares.plot(found.t, 100 * share, color=colour, ls=dashes, label=f"of dune {name} {where} dune {other}")
@@ -124,11 +122,10 @@ def sentences(found, pair):
     told = []
     for one in found.maps:
         chosen = (found.t >= one.start) & (found.t <= one.end)
-        up, down, *wake = (mean_of(values[chosen]) for values in (*found.force, *found.wake))
-        up, down = up or "not known", down or "not known"
-        halves = f" (its upstream half: {wake[0]} behind dune {pair[0]}, {wake[1]} beside)" if all(wake) else ""
+        up, down, *ends = (mean_of(values[chosen]) for values in (*found.force, *found.end))
         told.append(f"{one.moment}, {one.start:.3g} to {one.end:.3g} s: force of the water on surface grains over "
-                    f"their weight {up} on dune {pair[0]}, {down} on dune {pair[1]} downstream{halves}")
+                    f"their weight {up} on dune {pair[0]}, {down} on dune {pair[1]} downstream; at the upstream end "
+                    f"{ends[0]} and {ends[1]}")
     for name, foreign, amid in zip(pair, found.foreign, found.amid):
         told.append(f"dune {name}: {100 * foreign[-1]:.1f} % of its first grains are in the other dune by name at the "
                     f"end, {100 * amid[-1]:.1f} % lie amid more grains of the other")
@@ -136,10 +133,10 @@ def sentences(found, pair):
 
 
 def mean_of(values):
-    """With its 95 % interval, "" of fewer than two values."""
+    """With its 95 % interval."""
     known = values[np.isfinite(values)]
     if len(known) < 2:
-        return ""
+        return "not known"
     found = spread(known.tolist())
     return f"{found.mean:.3f} +- {found.interval:.3f}"
 
@@ -151,7 +148,7 @@ def keep_tables(figure, found):
         **{f"force_{side}": values for side, values in zip(sides, found.force)},
         **{f"foreign_{side}": values for side, values in zip(sides, found.foreign)},
         **{f"amid_{side}": values for side, values in zip(sides, found.amid)},
-        "force_behind": found.wake[0], "force_beside": found.wake[1]}, most=None)
+        **{f"force_end_{side}": values for side, values in zip(sides, found.end)}}, most=None)
     rows = []
     for number, one in enumerate(found.maps):
         x, z = (0.5 * (edges[1:] + edges[:-1]) for edges in one.edges)
