@@ -45,7 +45,9 @@ class Law:
     @property
     def zero(self) -> tuple[float, float]:
         """x at which the line of the first group is 0, and its standard error, by propagation of those of the centre
-        and of n, which are independent."""
+        and of n, which are independent; not numbers for a level line."""
+        if not self.n:
+            return np.nan, np.nan
         x0, y0 = self.centres[0]
         centre = self.deviation / np.sqrt(self.runs)
         return float(x0 - y0 / self.n), float(np.hypot(centre, y0 / self.n * self.error) / abs(self.n))
