@@ -3,10 +3,13 @@ folder of the study, runs/field/all, and draws its runs from above, field_views.
 
 A row is a number of a run: of the whole run, or at a time t, every half second. Quantities:
 - `class` of an encounter or obstacle (docs/dune-measures.md), and its columns of encounters.csv or obstacles.csv;
-- `grains`, `W`, `L`, `horn`, `lost`: of the main dune, at the end means of the last second, along the last current (in
-  turn-fast along the mean of both); horns are the mean of both by height, `lost` the part of its first grains;
-- `formation_time`, `reversal_time`, `static`: the part of the dune's grains that moves by less than a diameter from the
-  turn of the current to the end of the run;
+- `grains`, `W`, `L`, `horn`, `crest`, `lost`: of the main dune, at its end means of the last second, along the last
+  current (in turn-fast along the mean of both); the longer horn; how far the crest is before the centroid, over L, so
+  that it is positive for a slip face that faces down the current; `lost`: the part of its first grains;
+- `crest 1` ...: the same at the end of each direction; `loss`: of the dune's first grains a second, from a second after
+  each turn to the next; `lasts`: until when there is a main dune;
+- `turned_after`: from the turn until the crest is on the other side for good; `static`: the part of the dune's grains
+  that moves by less than a diameter from the turn of the current to the end of the run;
 - `first at REGION`, `first in horns`: share of the first kind there less its share of the dune, second half of the run;
 - `distance` of two ridges, the shorter way round; `grains of up/downstream`: of the named dunes;
 - the columns of laws.csv.
@@ -36,12 +39,16 @@ def main_dune(run, along=None):
     dune = run.main_dune_columns
     end = dune["t"][-1]
     seen = current.seen_along(run, end - 1.0, np.inf, current.direction(run.config, end) if along is None else along)
-    horns = 0.5 * (seen["horn_left_2d"] + seen["horn_right_2d"])
-    yield None, "horn", horns.mean()
+    yield None, "horn", np.maximum(seen["horn_left"], seen["horn_right"]).mean()
+    yield None, "crest", crest_ahead(seen).mean()
     for name in ("W", "L"):
         yield None, name, seen[name].mean()
     yield None, "lost", 1 - dune["n_grains"][dune["t"] >= end - 1.0].mean() / dune["n_grains"][0]
     yield from curve("grains", dune["t"], dune["n_grains"])
+
+
+def crest_ahead(dune):
+    return (dune["crest_x"] - dune["Cx"]) / dune["L"]
 
 
 def curve(name, t, values):
@@ -52,15 +59,24 @@ def curve(name, t, values):
 def turning(run, name):
     """A dune in a current that turns: fast turns leave it no direction but their mean."""
     yield from main_dune(run, np.array(current.ALONG_X) if name == "turn-fast" else None)
-    for number, (_, time) in enumerate(current.reversal_times(run), 1):
-        if name == "turn-slow":
-            yield None, f"horns after turn {number}", time
+    dune, turns = run.main_dune_columns, current.currents(run.config)
+    t, n = dune["t"], dune["n_grains"] / dune["n_grains"][0]
+    yield None, "lasts", t[-1]
+    spans = [*zip(turns, [start for start, _ in turns[1:]] + [t[-1]])]
+    if name == "turn-slow":
+        for number, ((_, along), end) in enumerate(spans, 1):
+            yield None, f"crest {number}", crest_ahead(current.seen_along(run, end - 1.0, end, along)).mean()
+    calm = [(start + 1.0, end) for (start, _), end in spans if end > start + 1.5]
+    if calm:
+        lost = sum(np.interp(start, t, n) - np.interp(end, t, n) for start, end in calm)
+        yield None, "loss", lost / sum(end - start for start, end in calm)
 
 
 def reversal(run, _):
-    yield None, "formation_time", laws.formation_time(run.main_dune_columns)
-    (turn, time), *_ = current.reversal_times(run)
-    yield None, "reversal_time", time
+    (turn, _), *_ = current.reversal_times(run)
+    dune = run.main_dune_columns
+    ahead = np.flatnonzero(crest_ahead(dune) > 0)[-1]
+    yield None, "turned_after", dune["t"][ahead] - turn
     source = tracks(run)
     first, last = source.read(source.index(turn)), source.read(len(source.times) - 1)
     of_dune = first.id[main_rows(first)]

@@ -16,7 +16,7 @@ from barchan.io.study_folder import gap_of
 
 # Times [s] of the views.
 TIMES = {
-    "turn-slow": (2.9, 5.9, 9), "turn-fast": (2.9, 5.9, 9), "reversal": (2.9, 6, 10),
+    "turn-slow": (2.9, 5.9, 9), "turn-fast": (0.9, 2.9, 4.5), "reversal": (2.9, 6, 10),
     "two-densities": (0, 3, 6), "two-ridges": (0, 8, 16), "two-heaps": (0, 4, 8),
     "encounters-1000-in-line": (0, 4, 8), "encounters-1600-beside": (0, 4, 8),
     "barchan-meets-cylinder": (2, 5, 9), "barchan-meets-dune": (2, 5, 9), "barchan-meets-crater": (0, 4, 8),
@@ -34,7 +34,8 @@ def rows_of(study):
         known = case.run.grain_file.times
         frames = [case.run.frame(int(abs(known - time).argmin())) for time in TIMES[case.name]]
         dunes = [frame for frame in frames if len(main_rows(frame))]
-        window = common_window(dunes) if dunes and frames[0].group is None else frame_window(frames)
+        window = (common_window(dunes) if dunes and frames[0].group is None
+                  else frame_window([frame for frame in frames if len(frame.d)]))
         bodies = bodies_of(case.run)
         yield case.name, frames, body_pictures.in_window(window, bodies), bodies
 
