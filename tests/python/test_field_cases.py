@@ -42,6 +42,28 @@ def test_what_a_fed_dune_gains_counts_from_two_seconds_on():
     assert next(field_cases.fed(run, ""))[1:] == ("change from 2 s", pytest.approx(-0.04))
 
 
+def test_a_dune_in_a_current_that_turns(monkeypatch):
+    """It loses 1 % of its first grains a second, and 10 % at once where the current turns, at 3 s; its crest is then
+    2 mm before the centroid along the new current, 8 mm of length."""
+    t = np.linspace(0, 9, 91)
+    along = []
+
+    def seen(run, start, end, way):
+        along.append((start, end, tuple(np.round(way, 3))))
+        names = ("W", "L", "horn_left", "horn_right", "crest_x", "Cx")
+        return {name: np.array([value]) for name, value in zip(names, (0.01, 0.008, 0.001, 0.003, 0.012, 0.010))}
+
+    monkeypatch.setattr(field_cases.current, "seen_along", seen)
+    schedule = [{"time": 0, "velocity": [0.177, 0.177]}, {"time": 3, "velocity": [0.177, -0.177], "ramp": 0.5}]
+    run = SimpleNamespace(config={"fluid": {"schedule": schedule}},
+                          main_dune_columns={"t": t, "n_grains": 3000 * (1 - 0.01 * t - 0.1 * (t > 3.05))})
+    found = measured(field_cases.turning(run, "turn-slow"))
+    assert found["loss"] == pytest.approx(0.01) and found["lasts"] == 9 and found["horn"] == 0.003
+    assert found["lost"] == pytest.approx(0.01 * 8.5 + 0.1, abs=1e-3)
+    assert found["crest 1"] == found["crest 2"] == pytest.approx(0.25)
+    assert along == [(8.0, np.inf, (0.707, -0.707)), (2.0, 3.0, (0.707, 0.707)), (8.0, 9.0, (0.707, -0.707))]
+
+
 def test_saved_outcomes_are_counted_and_averaged(tmp_path):
     (tmp_path / "field_cases.csv").write_text(
         "# title: x\ncase,realisation,t,quantity,value\n"
