@@ -11,6 +11,7 @@ A row is a number of a run: of the whole run, or at a time t, every half second.
 - `turned_after`: from the turn until the crest is on the other side for good; `static`: the part of the dune's grains
   that moves by less than a diameter from the turn of the current to the end of the run;
 - `first at REGION`, `first in horns`: share of the first kind there less its share of the dune, second half of the run;
+- `stripe`: the first kind's share at the surface of the downstream third less that of the upstream third;
 - `distance` of two ridges, the shorter way round; `grains of up/downstream`: of the named dunes;
 - the columns of laws.csv.
 """
@@ -19,9 +20,8 @@ import csv
 
 import numpy as np
 
-from barchan.dune import composition, current, encounters, laws, obstacles
-from barchan.dune.shape import MAIN, main_rows
-from barchan.dune.tracks import tracks
+from barchan.dune import composition, current, encounters, laws, obstacles, shape
+from barchan.dune.tracks import bed_of, tracks
 from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.io.study_folder import StudyFolder, gap_of
@@ -79,7 +79,7 @@ def reversal(run, _):
     yield None, "turned_after", dune["t"][ahead] - turn
     source = tracks(run)
     first, last = source.read(source.index(turn)), source.read(len(source.times) - 1)
-    of_dune = first.id[main_rows(first)]
+    of_dune = first.id[shape.main_rows(first)]
     _, before, after = np.intersect1d(first.id, last.id, return_indices=True)
     moved = np.linalg.norm(source.bed.nearest(last.x[after] - first.x[before]), axis=1)
     still = np.isin(first.id[before], of_dune) & (moved < first.d.mean())
@@ -93,7 +93,24 @@ def mixture(run, _):
     for region in composition.REGIONS[1:]:
         excess = found.share(region)[:, 0] - found.share("dune")[:, 0]
         yield None, f"first {'in' if region == 'horns' else 'at'} {region}", np.nanmean(excess[late])
+    t = run.need_grains().times
+    striped = np.array([stripe(run, index) for index in range(len(t))])
+    yield None, "stripe at 2 s", np.nanmean(striped[abs(t - 2) < 0.5])
+    yield None, "stripe at the end", np.nanmean(striped[t > t[-1] - 1])
     yield from main_dune(run)
+
+
+def stripe(run, index):
+    """Share of the first kind among surface grains in the downstream third of the dune less that in the upstream one."""
+    grains = run.frame(index)
+    dune = shape.main_dune(grains, bed_of(run), run.dune_columns[shape.MAIN])
+    if dune is None:
+        return np.nan
+    rows = composition.regions(grains, dune)["surface"]
+    x = dune.x[np.searchsorted(dune.rows, rows)]
+    low, high = np.quantile(x, (1 / 3, 2 / 3))
+    first = grains.kind[rows] == 0
+    return first[x > high].mean() - first[x < low].mean()
 
 
 def ridges(run, _):
