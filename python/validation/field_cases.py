@@ -101,7 +101,7 @@ def mixture(run, _):
 
 
 def stripe(run, index):
-    """Share of the first kind among surface grains in the downstream third of the dune less that in the upstream one."""
+    """Share of the first kind at the surface of the downstream third of the dune less that of the upstream third."""
     grains = run.frame(index)
     dune = shape.main_dune(grains, bed_of(run), run.dune_columns[shape.MAIN])
     if dune is None:
