@@ -35,7 +35,7 @@ CLASS = "class"
 
 
 def main_dune(run, along=None):
-    """Numbers of the main dune at the end, and its grains in time."""
+    """Numbers of the main dune at the end."""
     dune = run.main_dune_columns
     end = dune["t"][-1]
     seen = current.seen_along(run, end - 1.0, np.inf, current.direction(run.config, end) if along is None else along)
@@ -44,7 +44,6 @@ def main_dune(run, along=None):
     for name in ("W", "L"):
         yield None, name, seen[name].mean()
     yield None, "lost", 1 - dune["n_grains"][dune["t"] >= end - 1.0].mean() / dune["n_grains"][0]
-    yield from curve("grains", dune["t"], dune["n_grains"])
 
 
 def crest_ahead(dune):
@@ -62,6 +61,7 @@ def turning(run, name):
     dune, turns = run.main_dune_columns, current.currents(run.config)
     t, n = dune["t"], dune["n_grains"] / dune["n_grains"][0]
     yield None, "lasts", t[-1]
+    yield from curve("grains", t, dune["n_grains"])
     spans = [*zip(turns, [start for start, _ in turns[1:]] + [t[-1]])]
     if name == "turn-slow":
         for number, ((_, along), end) in enumerate(spans, 1):
@@ -128,8 +128,8 @@ def ridges(run, _):
     yield from curve("distance", t, shorter)
 
 
-def meeting(run, _):
-    """Two dunes: how it went, and the grains of both until they touch."""
+def meeting(run, name):
+    """Two dunes: how it went, and of two that stay apart their grains in time."""
     lineage, found = encounters.find(run)
     if not found:
         yield None, CLASS, "none"
@@ -138,12 +138,13 @@ def meeting(run, _):
     yield None, CLASS, one.kind
     for name in ("upstream_over_downstream", "offset", "t_contact", "t_end", "distance_start", "distance_end"):
         yield None, name, getattr(one, name)
-    for side, name in (("upstream", one.upstream), ("downstream", one.downstream)):
-        n = lineage.n_grains[:, name]
+    for side, dune in (("upstream", one.upstream), ("downstream", one.downstream)):
+        n = lineage.n_grains[:, dune]
         there = np.flatnonzero(np.isfinite(n))
         yield None, f"{side} lost", 1 - n[there[-1]] / n[0]
         yield None, f"to_{side}", getattr(one, f"to_{side}") / min(lineage.n_grains[0, [one.upstream, one.downstream]])
-        yield from curve(f"grains of {side}", lineage.t[there], n[there])
+        if name == "two-heaps":
+            yield from curve(f"grains of {side}", lineage.t[there], n[there])
 
 
 def obstacle(run, _):
