@@ -2,16 +2,18 @@
 folder of the study, runs/field/all, and draws its runs from above, field_views.png.
 
 A row is a number of a run: of the whole run, or at a time t, every half second. Quantities:
-- `class` of an encounter or obstacle (docs/dune-measures.md), and its columns of encounters.csv or obstacles.csv;
+- `class` of an encounter or obstacle (docs/dune-measures.md), with columns of encounters.csv, where `to_upstream` and
+  `to_downstream` are parts of the lighter dune's grains, or of obstacles.csv; `upstream lost`, `downstream lost`: parts
+  of the dunes' first grains, less what they got;
 - `grains`, `W`, `L`, `horn`, `crest`, `lost`: of the main dune, at its end means of the last second, along the last
-  current (in turn-fast along the mean of both); the longer horn; how far the crest is before the centroid, over L, so
-  that it is positive for a slip face that faces down the current; `lost`: the part of its first grains;
+  current (in turn-fast along the mean of both); the longer horn; how far the crest is downstream of the centroid, over
+  L, so that it is positive for a slip face that faces down the current; `lost`: the part of its first grains;
 - `crest 1` ...: the same at the end of each direction; `loss`: of the dune's first grains a second, from a second after
   each turn to the next; `lasts`: until when there is a main dune;
 - `turned_after`: from the turn until the crest is on the other side for good; `static`: the part of the dune's grains
-  that moves by less than a diameter from the turn of the current to the end of the run;
+  that moves by less than a diameter in this time; `change from 2 s`: of its grains, to the end, over those at 2 s;
 - `first at REGION`, `first in horns`: share of the first kind there less its share of the dune, second half of the run;
-- `stripe`: the first kind's share at the surface of the downstream third less that of the upstream third;
+- `segregation`: the first kind's share at the surface of the downstream third less that of the upstream third;
 - `distance` of two ridges, the shorter way round; `grains of up/downstream`: of the named dunes;
 - the columns of laws.csv.
 """
@@ -62,10 +64,10 @@ def turning(run, name):
     t, n = dune["t"], dune["n_grains"] / dune["n_grains"][0]
     yield None, "lasts", t[-1]
     yield from curve("grains", t, dune["n_grains"])
-    spans = [*zip(turns, [start for start, _ in turns[1:]] + [t[-1]])]
-    if name == "turn-slow":
-        for number, ((_, along), end) in enumerate(spans, 1):
-            yield None, f"crest {number}", crest_ahead(current.seen_along(run, end - 1.0, end, along)).mean()
+    ends = [min(start, t[-1]) for start, _ in turns[1:]] + [t[-1]]
+    spans = [(turn, end) for turn, end in zip(turns, ends) if turn[0] < end]
+    for number, ((_, along), end) in enumerate(spans if name == "turn-slow" else (), 1):
+        yield None, f"crest {number}", crest_ahead(current.seen_along(run, end - 1.0, end, along)).mean()
     calm = [(start + 1.0, end) for (start, _), end in spans if end > start + 1.5]
     if calm:
         lost = sum(np.interp(start, t, n) - np.interp(end, t, n) for start, end in calm)
@@ -76,9 +78,10 @@ def reversal(run, _):
     (turn, _), *_ = current.reversal_times(run)
     dune = run.main_dune_columns
     ahead = np.flatnonzero(crest_ahead(dune) > 0)[-1]
-    yield None, "turned_after", dune["t"][ahead] - turn
+    turned = dune["t"][ahead] if ahead + 1 < len(dune["t"]) else np.nan
+    yield None, "turned_after", turned - turn
     source = tracks(run)
-    first, last = source.read(source.index(turn)), source.read(len(source.times) - 1)
+    first, last = (source.read(source.index(time)) for time in (turn, turned if np.isfinite(turned) else None))
     of_dune = first.id[shape.main_rows(first)]
     _, before, after = np.intersect1d(first.id, last.id, return_indices=True)
     moved = np.linalg.norm(source.bed.nearest(last.x[after] - first.x[before]), axis=1)
@@ -94,13 +97,13 @@ def mixture(run, _):
         excess = found.share(region)[:, 0] - found.share("dune")[:, 0]
         yield None, f"first {'in' if region == 'horns' else 'at'} {region}", np.nanmean(excess[late])
     t = run.need_grains().times
-    striped = np.array([stripe(run, index) for index in range(len(t))])
-    yield None, "stripe at 2 s", np.nanmean(striped[abs(t - 2) < 0.5])
-    yield None, "stripe at the end", np.nanmean(striped[t > t[-1] - 1])
+    apart = np.array([segregation(run, index) for index in range(len(t))])
+    yield None, "segregation at 2 s", np.nanmean(apart[abs(t - 2) < 0.5])
+    yield None, "segregation at the end", np.nanmean(apart[t > t[-1] - 1])
     yield from main_dune(run)
 
 
-def stripe(run, index):
+def segregation(run, index):
     """Share of the first kind at the surface of the downstream third of the dune less that of the upstream third."""
     grains = run.frame(index)
     dune = shape.main_dune(grains, bed_of(run), run.dune_columns[shape.MAIN])
@@ -130,14 +133,16 @@ def ridges(run, _):
 
 def meeting(run, name):
     """Two dunes: how it went, and of two that stay apart their grains in time."""
-    lineage, found = encounters.find(run)
+    try:
+        lineage, found = encounters.find(run)
+    except MissingData:
+        found = []
+    yield None, CLASS, found[0].kind if found else "none"
+    for column in ("upstream_over_downstream", "offset", "t_contact", "t_end", "distance_start", "distance_end"):
+        yield None, column, getattr(found[0], column) if found else np.nan
     if not found:
-        yield None, CLASS, "none"
         return
     one = found[0]
-    yield None, CLASS, one.kind
-    for name in ("upstream_over_downstream", "offset", "t_contact", "t_end", "distance_start", "distance_end"):
-        yield None, name, getattr(one, name)
     for side, dune in (("upstream", one.upstream), ("downstream", one.downstream)):
         n = lineage.n_grains[:, dune]
         there = np.flatnonzero(np.isfinite(n))
@@ -161,7 +166,7 @@ def size(run, _):
 
 
 def fed(run, _):
-    """What it loses from 2 s on."""
+    """What it gains from 2 s on."""
     dune = run.main_dune_columns
     late = dune["n_grains"][dune["t"] >= 2]
     yield None, "change from 2 s", late[-1] / late[0] - 1
@@ -222,8 +227,9 @@ def summary(source):
             known = [value for value in values if np.isfinite(value)]
             if known:
                 found = spread(known)
+                spreads = f" +- {found.deviation:.2g}" * (len(known) > 1)
                 lacks = f", not known in {len(values) - len(known)}" * (len(known) < len(values))
-                yield f"{case}: {name} {found.mean:.4g} +- {found.deviation:.2g} ({len(known)} runs{lacks})"
+                yield f"{case}: {name} {found.mean:.4g}{spreads} ({len(known)} runs{lacks})"
 
 
 MARKS = {encounters.MERGING: ("o", style.BLUE), encounters.EXCHANGE: ("s", style.VERMILLION),
@@ -239,6 +245,8 @@ def draw_map(ax, whole):
             continue
         for number, (kind, ratio, offset) in enumerate(zip(found[CLASS], found["upstream_over_downstream"],
                                                            found["offset"])):
+            if kind not in MARKS:
+                continue
             mark, colour = MARKS[kind]
             seen[kind], = ax.plot(ratio * (1 + 0.04 * number), 1e3 * abs(offset), mark, color=colour, ls="none")
     ax.legend(seen.values(), seen.keys(), loc="center right")

@@ -185,7 +185,7 @@ void add_initial(Sections& all) {
       "part");
   key("seed", &I::seed, "random seed of the perturbations of \"turbulent\"");
   key("realisation", &I::realisation, between(1, 1000000), "",
-      "member of an ensemble: another packing, another instant of the flow");
+      "member of an ensemble: another packing, another turbulent flow");
 }
 
 /// Adds the keys that `pour` and [[initial.heap]] share; "": the default is that of the heap.

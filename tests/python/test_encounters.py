@@ -84,6 +84,7 @@ def test_a_dune_that_dissolves_in_contact_has_merged_if_its_grains_join_the_othe
     one, = find(lineage, pair.bed)
     assert not lineage.present[-1, UP]
     assert (one.kind, one.t_end) == (kind, pytest.approx(TIMES[-1] if joins else 3.75))
+    assert one.to_downstream == pytest.approx(len(SMALL) if joins else 0, rel=0.02)
 
 
 def test_heaps_are_those_of_the_run():

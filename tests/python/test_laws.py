@@ -228,6 +228,19 @@ def test_a_window_without_times(study):
         laws_figure.draw(study, start=100)
 
 
+def test_cases_of_two_files_are_of_two_sizes(tmp_path):
+    """Their values are alike; c L follows the flow in each, and the a of both differ by a factor of 8."""
+    cases = []
+    for base, factor in (("a.toml", 1), ("b.toml", 8)):
+        for velocity in (0.2, 0.28, 0.4):
+            name = f"{base[0]}{velocity}"
+            write_run(tmp_path / name, 8e-3 * factor, velocity=velocity)
+            cases.append({"name": name, "case": name, "folder": name, "realisation": 1, "varied": None,
+                          "base": base, "values": {"fluid.mean_velocity": velocity}})
+    table = laws.measure(study_of(tmp_path, cases))
+    assert len(set(table["size"])) == 2
+
+
 def test_a_part_of_a_study_is_drawn(tmp_path, capsys):
     folder = tmp_path / "study"
     folder.mkdir()
@@ -235,6 +248,7 @@ def test_a_part_of_a_study_is_drawn(tmp_path, capsys):
     assert plot.main([str(folder), "laws", "--only", "3k", "--only", "10*"]) == 0
     rows = (folder / "figures_data/laws.csv").read_text().splitlines()[1:]
     assert {row.split(",")[0] for row in rows} == {"3k", "10k", "100k"}
+    assert [case.name for case in Study(folder, only="3k").cases] == ["3k"]
     capsys.readouterr()
     assert plot.main([str(folder), "laws", "--only", "5k"]) == 2
     assert 'no case "5k"' in capsys.readouterr().err

@@ -117,7 +117,8 @@ def test_overrides_that_cannot_be_meant(launcher):
 NESTED = [
     ("field/reversal.toml", {"fluid.schedule.2.velocity": -0.2}, {}),
     ("field/two-heaps-settle.toml", {"initial": {"heap": {1: {"radius": 0.0045}, 2: {"seed": 7}}}}, {}),
-    ("field/two-heaps-settle.toml", {"initial.heap.2": {"centre": [0.045, 0.012], "radius": 0.0045}}, {"time__end": 0.5}),
+    ("field/two-heaps-settle.toml", {"initial.heap.2": {"centre": [0.045, 0.012], "radius": 0.0045}},
+     {"time__end": 0.5}),
     ("field/two-densities-settle.toml", {"grains": {"kind": {"2": {"density": 3100.0}}}}, {}),
     ("heap-3k.toml", {"initial.grains.pour.radius": 0.0042}, {"initial__grains__pour__seed": 3})]
 

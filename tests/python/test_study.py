@@ -93,8 +93,9 @@ def of_files(folder, of, more=""):
     (folder / "case.toml").write_text("[time]\nend = 1.0\n")
     (folder / "deep").mkdir(exist_ok=True)
     (folder / "deep" / "other.toml").write_text("[time]\nend = 2.0\n")
-    (folder / "deep" / "sizes.toml").write_text('ensemble.realisations = 2\n[study]\nbase = "../case.toml"\n'
-                                                "[set]\ntime.end = 5.0\n[cases]\nsmall.grains.skin = 1e-5\nlarge = {}\n")
+    (folder / "deep" / "sizes.toml").write_text('ensemble.realisations = 2\n[study]\nbase = "../case.toml"\n[set]\n'
+                                                "time.end = 5.0\n[cases]\nsmall.grains.skin = 1e-5\nlarge = {}\n")
+    (folder / "odd.toml").write_text("study = 3\n")
     (folder / "all.toml").write_text(f"{more}\n[study]\nof = {of}\n")
     return read_study(folder / "all.toml", OPTIONS)
 
@@ -105,7 +106,8 @@ def test_a_study_of_other_files_has_their_cases(tmp_path):
                      "ensemble.realisations = 3\nset.output.dune_interval = 1.0")
     base, sizes, common = tmp_path / "case.toml", {"time.end": 5.0}, {"output.dune_interval": 1.0}
     firsts = [("other", tmp_path / "deep/other.toml", common), ("case", base, common),
-              ("sizes-small", base, {**sizes, "grains.skin": 1e-5, **common}), ("sizes-large", base, {**sizes, **common})]
+              ("sizes-small", base, {**sizes, "grains.skin": 1e-5, **common}),
+              ("sizes-large", base, {**sizes, **common})]
     assert [(case.name, case.base, case.values) for case in study.cases if case.realisation == 1] == firsts
     assert [case.run_name for case in study.cases[len(firsts):]] == [
         "other-r2", "case-r2", "sizes-small-r2", "sizes-large-r2", "other-r3", "case-r3"]
@@ -117,7 +119,15 @@ def test_a_study_of_other_files_may_have_cases_of_its_own(tmp_path):
     assert [(case.name, case.values) for case in study.cases] == [("slow", {"time.end": 9.0}), ("other", {})]
 
 
+def test_some_cases_of_other_files_are_repeated(tmp_path):
+    study = of_files(tmp_path, '["deep/other.toml", "case.toml"]', 'ensemble = { realisations = 2, cases = ["case"] }')
+    assert [case.run_name for case in study.cases] == ["other", "case", "case-r2"]
+
+
 @pytest.mark.parametrize("of, more, said", [
+    ('["odd.toml"]', "", r"odd.toml: study must be a section, \[study\]"),
+    ('["case.toml"]\nbase = "gone.toml"', "", "cannot read .*gone.toml"),
+    ('["case.toml"]', 'ensemble.cases = ["cse"]', r'unknown name "cse" \(did you mean "case"'),
     ('["no.toml"]', "", "cannot read .*no.toml: No such file"),
     ('"case.toml"', "", r"\[study\] of must be a list of files, cases or studies"),
     ("[3]", "", r"\[study\] of must be a list of files"),

@@ -25,7 +25,7 @@ class Study(StudyFolder):
     ----------
     path : str or pathlib.Path
         The folder of the study; an attribute, too.
-    only : sequence of str, optional
+    only : str or sequence of str, optional
         The cases whose names fit one of these patterns (*, ?, [abc]); all by default.
 
     Attributes

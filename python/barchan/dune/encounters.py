@@ -146,7 +146,7 @@ def _related(lineage: Lineage, a: int, b: int) -> bool:
     return a in lineage.births[b].family or b in lineage.births[a].family
 
 
-def _separation(lineage: Lineage, bed: Bed, a: int, b: int) -> np.ndarray:
+def separation(lineage: Lineage, bed: Bed, a: int, b: int) -> np.ndarray:
     """(F, 3) from a to b, to the nearest image at first and then without jumps [m]; NaN where one is not there."""
     apart = np.zeros((len(lineage.t), 3))
     apart[:, 0], apart[:, 2] = lineage.x[:, b] - lineage.x[:, a], lineage.z[:, b] - lineage.z[:, a]
@@ -161,7 +161,7 @@ def _start(lineage: Lineage, bed: Bed, a: int, b: int, along: Along) -> int | No
     both = np.nonzero(lineage.present[:, a] & lineage.present[:, b])[0]
     if not len(both):
         return None
-    apart = bed.nearest(_separation(lineage, bed, a, b))
+    apart = bed.nearest(separation(lineage, bed, a, b))
     for frame in both:
         if lineage.body[frame, a] == lineage.body[frame, b]:
             return int(frame)
@@ -195,7 +195,7 @@ def _extent(lineage: Lineage, frame: int, name: int, axis: np.ndarray) -> float:
 
 def _in_order(lineage: Lineage, bed: Bed, a: int, b: int, start: int, along: Along) -> tuple[int, int]:
     """(upstream, downstream)"""
-    apart, way = bed.nearest(_separation(lineage, bed, a, b)[start]), along(lineage.t[start])
+    apart, way = bed.nearest(separation(lineage, bed, a, b)[start]), along(lineage.t[start])
     return (a, b) if _project(apart, way) > 0 else (b, a)
 
 
@@ -209,7 +209,7 @@ class _Pair:
         self.up, self.down = up, down
         present = [lineage.present[:, sorted(side)].any(axis=1) for side in self.sides]
         self.end = int(np.nonzero(present[0] & present[1])[0][-1])
-        apart = _separation(lineage, bed, up, down)
+        apart = separation(lineage, bed, up, down)
         distance = _project(apart, way)[start:self.end + 1]
         self.distance = distance[np.isfinite(distance)]
         self.aside = float(_project(apart[start], _across(way)))
@@ -248,7 +248,7 @@ class _Pair:
 
     def _changed(self, source: set[int], target: set[int], first: int) -> int:
         frame, old, new, number = self.lineage.moves.T
-        chosen = (frame >= first) & (frame <= self.end) & np.isin(old, list(source)) & np.isin(new, list(target))
+        chosen = (frame >= first) & (frame <= self.last) & np.isin(old, list(source)) & np.isin(new, list(target))
         return int(number[chosen].sum())
 
     def _kind(self, splits: list[int], ejected: list[int]) -> str:

@@ -44,8 +44,8 @@ class Law:
 
     @property
     def zero(self) -> tuple[float, float]:
-        """x at which the line of the first group is 0, and its standard error, by propagation of those of the centre
-        and of n, which are independent; not numbers for a level line."""
+        """x at which a line of one group is 0, and its standard error, by propagation of those of the centre and of n,
+        which are independent; not numbers for a level line."""
         if not self.n:
             return np.nan, np.nan
         x0, y0 = self.centres[0]

@@ -114,8 +114,8 @@ def over_crest(run: Any, celerity: float, start: float | None, end: float | None
 
 
 def size_of(case: Case) -> str:
-    return json.dumps({key: value for key, value in case.values.items()
-                       if key != BY_NAME and not key.startswith(OF_THE_FLOW)}, sort_keys=True)
+    values = {key: value for key, value in case.values.items() if key != BY_NAME and not key.startswith(OF_THE_FLOW)}
+    return json.dumps([case.base, values], sort_keys=True)
 
 
 def formation_time(dune: dict[str, np.ndarray], since: float = 0.0) -> float:

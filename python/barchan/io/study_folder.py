@@ -23,7 +23,8 @@ BY_NAME = "case"  # what differs between the cases of a study that varies no sin
 
 @dataclass
 class Case:
-    """`varied` is the key it changes, None for the base case; `values` of all keys studied.
+    """`varied` is the key it changes, None for the base case; `values` of all keys studied. `base`: the file that is
+    varied; empty in studies of earlier versions.
 
     `run` is its first realisation, `others` are further ones that are there.
     """
@@ -33,6 +34,7 @@ class Case:
     values: dict[str, Any]
     run: Any
     gap: str | None
+    base: str = ""
     others: list = field(default_factory=list)
 
     @property
@@ -91,6 +93,7 @@ class StudyFolder:
     def __init__(self, path: str | Path, only: Iterable[str] = ()) -> None:
         """`only`: the cases whose names fit one of these patterns (*, ?, [abc]); all by default."""
         self.path = Path(path)
+        only = [only] if isinstance(only, str) else list(only)
         try:
             study = json.loads((self.path / NAME).read_text())
             self.title = study.get("title") or self.path.resolve().name
@@ -111,7 +114,8 @@ class StudyFolder:
         path = self.path / entry["folder"]
         run = self.run_class(path) if path.is_dir() else None
         values = {**entry.get("values", {}), BY_NAME: str(entry["name"])}
-        return Case(str(entry["name"]), entry.get("varied"), values, run, gap_of(path))
+        return Case(str(entry["name"]), entry.get("varied"), values, run, gap_of(path),
+                    entry.get("base", ""))
 
     def _add_realisations(self, entries: Iterable[dict[str, Any]]) -> None:
         cases = {case.name: case for case in self.cases}
@@ -144,14 +148,14 @@ class StudyFolder:
     def series(self, key: str, usable: Callable[[Any], bool] = lambda run: True) -> list[Case]:
         """Cases that differ in `key` alone, by its value; those that are there and `usable`.
 
-        The base case belongs to every series; of two cases of one value the first is kept.
+        The base case belongs to every series; of two cases of one base and value the first is kept.
         """
         if key not in self.keys:
             raise MissingData(f"needs a study of {key}")
         chosen: dict[str, Case] = {}
         for case in self.cases:
             if case.varied in (None, key) and key in case.values and case.run and usable(case.run):
-                chosen.setdefault(json.dumps(case.values[key]), case)
+                chosen.setdefault(json.dumps([case.base, case.values[key]]), case)
         cases = list(chosen.values())
         if all(isinstance(case.values[key], (int, float)) for case in cases):
             cases.sort(key=lambda case: case.values[key])

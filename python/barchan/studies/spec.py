@@ -222,19 +222,20 @@ def named_cases(tables, base, common, path):
     return cases
 
 
-def cases_of_files(files, common, count, path):
-    """The cases of other files: `count` realisations of a case, and of a study all that it has."""
-    cases = []
+def cases_of_files(files, common, path):
+    """(cases that other files are, runs of other files that are studies)"""
+    cases, runs = [], []
     for name in files:
         file = (path.parent / name).resolve()
-        if "study" not in load(file):
-            cases += repeated([Case(file.stem, file, common)], count, [file.stem])
-            continue
-        if "of" in load(file)["study"]:
-            raise StudyError(f"{path}: [study] of: {name} has an \"of\" itself; name its files here")
-        cases += [replace(case, name=f"{file.stem}-{case.name}", values={**case.values, **common})
-                  for case in cases_of(file)[1]]
-    return cases
+        table = load(file)
+        if "study" not in table:
+            cases.append(Case(file.stem, file, common))
+        elif "of" in check_sections(table, file):
+            raise StudyError(f'{path}: [study] of: {name} has an "of" itself; name its files here')
+        else:
+            runs += [replace(case, name=f"{file.stem}-{case.name}", values={**case.values, **common})
+                     for case in runs_of(table, file)]
+    return cases, runs
 
 
 def ensemble_of(cases, table, path):
@@ -247,15 +248,11 @@ def ensemble_of(cases, table, path):
         raise StudyError(f"{path}: [ensemble] realisations must be a number from 1 to {MOST_REALISATIONS}")
     names = [case.name for case in cases]
     chosen = table.get("cases", names)
-    if not isinstance(chosen, list) or not chosen and cases:
+    if not isinstance(chosen, list) or not chosen and "cases" in table:
         raise StudyError(f"{path}: [ensemble] cases must be a list of names of cases")
     for name in chosen:
         if name not in names:
             raise unknown(str(name), names, f"{path}: [ensemble] cases")
-    return count, repeated(cases, count, chosen)
-
-
-def repeated(cases, count, chosen):
     return [replace(case, realisation=which) for which in range(1, count + 1) for case in cases
             if which == 1 or case.name in chosen]
 
@@ -309,29 +306,29 @@ def check_sections(table, path):
     return head
 
 
-def cases_of(path):
-    """What [study] says, and every realisation of every case, all first ones first."""
-    table = load(path)
+def runs_of(table, path):
+    """Every realisation of every case, all first ones first."""
     head = check_sections(table, path)
     common = flatten(table.get("set", {}))
-    cases = []
+    cases, runs = cases_of_files(head.get("of", []), common, path)
     if "base" in head:
         base = (path.parent / head["base"]).resolve()
-        if "vary" in table:
-            cases += one_at_a_time(lists_of(table["vary"], path, "vary"), base, common, path)
-        cases += all_combinations(lists_of(table.get("grid", {}), path, "grid"), base, common, path)
-        cases += named_cases(tables_of(table), base, common, path)
-    count, cases = ensemble_of(cases, table.get("ensemble", {}), path)
-    cases += cases_of_files(head.get("of", []), common, count, path)
-    if not cases:
+        load_case(base)
+        own = one_at_a_time(lists_of(table["vary"], path, "vary"), base, common, path) if "vary" in table else []
+        own += all_combinations(lists_of(table.get("grid", {}), path, "grid"), base, common, path)
+        cases = own + named_cases(tables_of(table), base, common, path) + cases
+    runs = ensemble_of(cases, table.get("ensemble", {}), path) + runs
+    if not runs:
         raise StudyError(f"{path}: no cases: give [vary], [grid] or [cases]")
-    if any(REALISATION in case.values for case in cases if case.realisation > 1):
+    if any(REALISATION in case.values for case in runs if case.realisation > 1):
         raise StudyError(f"{path}: [ensemble] sets {REALISATION} itself: do not give it as well")
-    return head, sorted(cases, key=lambda case: case.realisation)
+    return sorted(runs, key=lambda case: case.realisation)
 
 
 def read_study(path, options):
-    head, cases = cases_of(path)
+    table = load(path)
+    cases = runs_of(table, path)
+    head = table["study"]
     names = [case.run_name for case in cases]
     for name in names:
         if len(name) > LONGEST_NAME:
