@@ -19,10 +19,10 @@ def built_heap():
     return x, layer, FACTORS[layer] * np.where(x[:, 0] > x[:, 0].mean() + D, 0.5, 1.0)
 
 
-def write_run(folder, forces=force_depth.FORCES):
+def write_run(folder, forces=force_depth.FORCES, kinds="", kind=None):
     """Frames at 0, 1, 2, 3 s, the grains in another order in each; the force swings by its own half about its mean."""
     x, _, factor = built_heap()
-    (folder / "config.toml").write_text("[grains]\ndensity = 2500.0\n")
+    (folder / "config.toml").write_text("[grains]\ndensity = 2500.0\n" + kinds)
     with h5py.File(folder / "grains.h5", "w") as file:
         for frame in range(4):
             order = np.random.default_rng(frame).permutation(len(x))
@@ -32,6 +32,8 @@ def write_run(folder, forces=force_depth.FORCES):
             group["id"], group["x"], group["d"] = order, x[order], np.full(len(x), D)
             for share, name in zip((0.7, 0.2, 0.1), forces):
                 group[name] = np.outer(share * swing * WEIGHT * factor[order], [1, 0, 0])
+            if kind is not None:
+                group["kind"] = kind[order]
     return Run(folder)
 
 
@@ -50,6 +52,22 @@ def test_the_whole_heap_and_a_single_frame(tmp_path):
     run, mean = write_run(tmp_path), built_heap()[2].mean()
     assert force_depth.of_run(run)["total"] == pytest.approx(mean, rel=1e-6)
     assert force_depth.of_run(run, 0.9, 1.1)["total"] == pytest.approx(1.5 * mean, rel=1e-6)
+
+
+def test_the_weight_is_that_of_each_kind(tmp_path):
+    """The upper layer is of grains whose weight in water is twice that of the others."""
+    _, layer, factor = built_heap()
+    kinds = "[[grains.kind]]\nname = \"light\"\n[[grains.kind]]\nname = \"heavy\"\ndensity = 4000\n"
+    found = force_depth.of_run(write_run(tmp_path, kinds=kinds, kind=(layer == 0).astype(int)))
+    means = found["upstream"][0]
+    at = [int(np.digitize(depth + 1e-6, force_depth.EDGES)) - 1 for depth in (0.0, 1.0, 2.0)]
+    assert means[at] == pytest.approx(FACTORS / (2, 1, 1), rel=1e-6)
+    assert found["total"] == pytest.approx(factor.mean() * 3 / 4, rel=1e-6)
+    of_one = {"grains": {"kind": [{"name": "heavy", "density": 4000.0}]}}
+    assert force_depth.submerged_weight(of_one, D, None) == pytest.approx(2 * WEIGHT)
+    (tmp_path / "bare").mkdir()
+    with pytest.raises(MissingData, match="with the kind of each grain"):
+        force_depth.of_run(write_run(tmp_path / "bare", kinds=kinds))
 
 
 def test_what_it_needs(tmp_path):

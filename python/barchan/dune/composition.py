@@ -1,7 +1,8 @@
 """Which kinds of grains lie where in the main dune.
 
 Regions of the grains of the dune: `surface`, whose tops reach to within a mean diameter below the surface (surface.py);
-`crest`, those of the surface where it is at least CREST of its greatest height; `horns` (horns.py). Shares are by number.
+`crest`, those of the surface where it is at least CREST of its greatest height; `horns` (horns.py). Shares are by
+number.
 """
 
 from dataclasses import dataclass
@@ -9,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from barchan.dune.horns import members
-from barchan.dune.shape import MAIN, Dune, main_dune
+from barchan.dune.shape import MAIN, Dune, Sand, main_dune
 from barchan.dune.tracks import bed_of
 from barchan.errors import MissingData
 from barchan.io.frames import Grains
@@ -37,13 +38,17 @@ class Composition:
 
 def regions(grains: Grains, dune: Dune) -> dict[str, np.ndarray]:
     """{region: rows of the grains of the frame that are in it}."""
-    top = grains.x[dune.rows, 1] + 0.5 * grains.d[dune.rows]
-    height = dune.surface.at(dune.x, dune.z)
-    surface = top >= height - float(grains.d.mean())
-    crest = surface & (height >= CREST * dune.surface.h.max())
+    surface = at_surface(grains, dune.rows, dune)
+    crest = surface & (dune.surface.at(dune.x, dune.z) >= CREST * dune.surface.h.max())
     ids, _ = members(grains, dune)
     return {"dune": dune.rows, "surface": dune.rows[surface], "crest": dune.rows[crest],
             "horns": np.nonzero(np.isin(grains.id, ids))[0]}
+
+
+def at_surface(grains: Grains, rows: np.ndarray, sand: Dune | Sand) -> np.ndarray:
+    """(n) which grains of a dune, in these rows of the frame, are at its surface."""
+    top = grains.x[rows, 1] + 0.5 * grains.d[rows]
+    return top >= sand.surface.at(sand.x, sand.z) - float(grains.d.mean())
 
 
 def composition(run: RunFolder) -> Composition:

@@ -1,18 +1,19 @@
 """The water's force along the current on two dunes that meet, and whose grains lie in whose dune; no drawing.
 
-Forces are means over grains at the surface, as fractions of the submerged weight of a grain of mean diameter. Maps
-move with the centroid of both dunes. Definitions: docs/dune-measures.md, "Encounters". SI units.
+Forces are means over grains at the surface, as fractions of the submerged weight of a grain of mean diameter and mean
+density, called weight here. Maps move with the centroid of both dunes. Definitions: docs/dune-measures.md,
+"Encounters". SI units.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from barchan.dune import encounters
+from barchan.dune.composition import at_surface
 from barchan.dune.current import direction
 from barchan.dune.encounters import Encounter
-from barchan.dune.force_depth import submerged_weight
+from barchan.dune.force_depth import read_frame, submerged_weight
 from barchan.dune.lineage import NONE, Lineage, follow
 from barchan.dune.shape import Bed, Sand, number_of_bins
 from barchan.dune.tracks import tracks
@@ -113,7 +114,7 @@ def _read(run: RunFolder, file: FrameFile, frames: list[tuple[float, str]], line
     there = np.clip(np.searchsorted(lineage.t, t * (1 + 1e-9), side="right") - 1, 0, None)
     body = lineage.body[there][:, pair]
     touching = (body[:, 0] == body[:, 1]) & (body[:, 0] != NONE)
-    windows = moments(lineage, one, t, touching)
+    windows = moments(lineage, bed, one, t, touching)
     kept: dict[int, Sample] = {}
     wanted = {index for rows in windows.values() for index in rows}
     force, foreign, amid, end = np.full((4, 2, len(t)), np.nan)
@@ -121,11 +122,14 @@ def _read(run: RunFolder, file: FrameFile, frames: list[tuple[float, str]], line
     with file.open() as content:
         for index, (time, group) in enumerate(frames):
             way = direction(run.config, time)
-            grains, along = read_frame(content[group], time, way)
+            parts = [part for part in WATER if part in content[group]]
+            if not parts:
+                raise MissingData("needs grains.h5 with forces of the water")
+            grains, along = read_frame(content[group], parts, way)
             name = _values_of(grains.id, *named[index])
             name[grains.dune == NONE] = NONE
             origin = _values_of(grains.id, np.arange(len(home)), home)
-            weight = float(submerged_weight(run.config, grains.d.mean()))
+            weight = float(np.mean(submerged_weight(run.config, grains.d.mean(), grains.kind)))
             moved = [np.count_nonzero((origin == dune) & (name == other)) for dune, other in zip(pair, pair[::-1])]
             foreign[:, index] = np.divide(moved, total)
             amid[:, index] = np.divide(among_others(grains, origin, pair, bed), total)
@@ -173,20 +177,7 @@ def mean_of(values: np.ndarray) -> float:
     return float(values.mean()) if len(values) >= FEWEST else np.nan
 
 
-def read_frame(group: Any, time: float, along: np.ndarray) -> tuple[Grains, np.ndarray]:
-    """The grains by id, and the water's force on each along a unit vector (2) of the current [N]."""
-    there = [name for name in WATER if name in group]
-    if not there:
-        raise MissingData("needs grains.h5 with forces of the water")
-    order = np.argsort(group["id"][:])
-    number, x, d, dune = (group[name][:][order] for name in ("id", "x", "d", "dune"))
-    force = np.sum([group[name][:][order].astype(float) for name in there], axis=0)
-    known = np.isfinite(x).all(axis=1) & np.isfinite(force).all(axis=1)
-    grains = Grains(time, number[known], x[known], d[known].astype(float), dune[known])
-    return grains, force[known][:, (0, 2)] @ along
-
-
-def moments(lineage: Lineage, one: Encounter, t: np.ndarray, touching: np.ndarray) -> dict[str, range]:
+def moments(lineage: Lineage, bed: Bed, one: Encounter, t: np.ndarray, touching: np.ndarray) -> dict[str, range]:
     """{moment: rows of t}: at most four of FRAMES frames each, of which none is in two. The contact is the first that
     lasts as long, else the first of all; there is a moment halfway after it where there is none of the approach."""
     count = len(t)
@@ -195,8 +186,8 @@ def moments(lineage: Lineage, one: Encounter, t: np.ndarray, touching: np.ndarra
         return range(max(0, first), min(first + FRAMES, count))
 
     if not np.isfinite(one.t_contact):
-        apart = np.hypot(*(getattr(lineage, axis)[:, one.downstream] - getattr(lineage, axis)[:, one.upstream]
-                           for axis in "xz"))
+        between = encounters.separation(lineage, bed, one.upstream, one.downstream)
+        apart = np.linalg.norm(bed.nearest(between), axis=1)
         inside = within(lineage.t, t[0], t[-1]) & np.isfinite(apart)
         least = lineage.t[inside][np.argmin(apart[inside])] if inside.any() else t[0]
         closest = int(np.argmin(abs(t - least)))
@@ -234,7 +225,7 @@ def sample_of(grains: Grains, force: np.ndarray, home: np.ndarray, pair: tuple[i
         return None
     first = places[known][0]
     middle = first + np.average(bed.nearest(places[known] - first), axis=0, weights=volumes[known])
-    return Sample(grains.time, bed.nearest(grains.x - middle)[:, (0, 2)], force, at_surface(grains, bed),
+    return Sample(grains.time, bed.nearest(grains.x - middle)[:, (0, 2)], force, at_surfaces(grains, bed),
                   grains.dune == NONE, home, np.pi / 4 * grains.d**2, bed.nearest(places - middle)[:, (0, 2)])
 
 
@@ -249,15 +240,13 @@ def upstream_end(sample: Sample, own: np.ndarray, way: np.ndarray, d: float) -> 
     return chosen & (along < first + END * d) & (abs(across - middle) < MIDDLE * d)
 
 
-def at_surface(grains: Grains, bed: Bed) -> np.ndarray:
-    """(N) whether the top of a grain reaches to within a mean diameter below the surface of its dune."""
+def at_surfaces(grains: Grains, bed: Bed) -> np.ndarray:
+    """(N) which grains are at the surface of a dune."""
     assert grains.dune is not None
     result = np.zeros(len(grains.id), bool)
     for label in np.unique(grains.dune[grains.dune != NONE]):
         rows = np.nonzero(grains.dune == label)[0]
-        sand = Sand.of(grains, rows, bed)
-        top = grains.x[rows, 1] + sand.radius
-        result[rows] = top >= sand.surface.at(sand.x, sand.z) - float(grains.d.mean())
+        result[rows] = at_surface(grains, rows, Sand.of(grains, rows, bed))
     return result
 
 

@@ -6,12 +6,15 @@ top. Parts of the heap: upstream of its centroid by more than a fifth of its rad
 crest between.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from barchan.dune.current import ALONG_X
 from barchan.errors import MissingData
+from barchan.io.frames import Grains
 from barchan.stats import within
 
 FORCES = ("force_drag", "force_pressure_gradient", "force_stress")
@@ -30,25 +33,32 @@ def of_run(run: Any, start: float | None = None, end: float | None = None) -> di
     if not inside:
         raise MissingData(f"needs a frame with forces between t = {start:g} s and {end:g} s")
     with file.open() as content:
-        samples = [read_frame(content[name]) for name in inside]
-    x, d, _ = samples[-1]
-    force = np.array([sample[2] for sample in samples])
-    weight = submerged_weight(run.config, d)
-    return by_depth(x, d, force.mean(axis=0) / weight, np.sqrt((force**2).mean(axis=0)) / weight, weight)
+        samples = [read_frame(content[name], FORCES) for name in inside]
+    grains = samples[-1][0]
+    force = np.array([along for _, along in samples])
+    weight = submerged_weight(run.config, grains.d, grains.kind)
+    return by_depth(grains.x, grains.d, force.mean(axis=0) / weight, np.sqrt((force**2).mean(axis=0)) / weight, weight)
 
 
-def submerged_weight(config: Mapping[str, Any], d: Any) -> Any:
-    """Of grains of diameter d [m] in the water of a case [N]."""
+def submerged_weight(config: Mapping[str, Any], d: Any, kind: np.ndarray | None) -> Any:
+    """Of grains of diameter d [m] in the water of a case [N]. kind (n): of each, needed where there are several."""
     grains, water = config.get("grains", {}), config.get("fluid", {}).get("density", 1000.0)
     gravity = np.linalg.norm(grains.get("gravity", [0, -9.81, 0]))
-    return (grains.get("density", 2500.0) - water) * gravity * np.pi / 6 * d**3
+    density = grains.get("density", 2500.0)
+    kinds = np.array([one.get("density", density) for one in grains.get("kind", ())] or [density])
+    if len(kinds) > 1 and kind is None:
+        raise MissingData("needs grains.h5 with the kind of each grain: kinds may differ in density")
+    return ((kinds[0] if len(kinds) == 1 else kinds[kind]) - water) * gravity * np.pi / 6 * d**3
 
 
-def read_frame(group: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """x (n, 3) [m], d (n) [m], force along x (n) [N], by id."""
+def read_frame(group: Any, names: Sequence[str], way: ArrayLike = ALONG_X) -> tuple[Grains, np.ndarray]:
+    """The grains of a frame by id, and the sum of these forces on each along a unit vector (2) [N]."""
     order = np.argsort(group["id"][:])
-    force = sum(group[name][:, 0] for name in FORCES)
-    return group["x"][:][order], group["d"][:][order].astype(float), force[order].astype(float)
+    number, x, d = (group[name][:][order] for name in ("id", "x", "d"))
+    dune, kind = (group[name][:][order] if name in group else None for name in ("dune", "kind"))
+    force = np.sum([group[name][:][order].astype(float) for name in names], axis=0)
+    grains = Grains(float(group.attrs["time"]), number, x, d.astype(float), dune, kind=kind)
+    return grains, force[:, (0, 2)] @ np.asarray(way)
 
 
 def by_depth(x: np.ndarray, d: np.ndarray, mean: np.ndarray, rms: np.ndarray, weight: np.ndarray) -> dict[str, Any]:

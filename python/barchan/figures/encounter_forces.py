@@ -1,10 +1,10 @@
 """encounter_forces: what the water does to two dunes that meet, and whose grains lie in whose dune.
 
 (a) to (d) from above, moving with the centroid of both dunes: the water's force along the current on grains at the
-surface, over the submerged weight of a mean grain. Lines: outlines of what is of each dune, dots: its centroid. Below
-against time: the same force as mean over each dune by name, and over its upstream end; the share of each one's first
-grains that is in the other by name, and that lies amid more grains of the other. Grey: they touch. Definitions:
-docs/dune-measures.md, "Encounters".
+surface, over the submerged weight of a grain of mean diameter. Lines: outlines of what is of each dune, dots: its
+centroid. Below against time: the same force as mean over each dune by name, and over its upstream end; the share of
+each one's first grains that is in the other by name, and that lies amid more grains of the other. Grey: they touch.
+Definitions: docs/dune-measures.md, "Encounters".
 """
 
 import numpy as np
@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from barchan.dune import encounter_forces
 from barchan.dune.current import always_along_x
 from barchan.dune.detect import RIM_COVER, components
+from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.figures.encounters import COLOURS
 from barchan.figures.result import keep, say
@@ -54,15 +55,22 @@ def window_of(maps):
     for one in maps:
         piece = components(one.cover.sum(axis=0) >= RIM_COVER, (False, False))
         numbers, bins = np.unique(piece[piece >= 0], return_counts=True)
+        if not len(bins):
+            continue
         held = np.nonzero(np.isin(piece, numbers[bins >= min(CLUMP, bins.max())]))
         ends += [(edges[rows.min()], edges[rows.max() + 1]) for edges, rows in zip(one.edges, held)]
+    if not ends:
+        raise MissingData(f"needs dunes whose grains cover {RIM_COVER:g} of a bin of the map")
     x, z = np.array(ends[::2]), np.array(ends[1::2])
     return x[:, 0].min() - MARGIN, x[:, 1].max() + MARGIN, z[:, 0].min() - MARGIN, z[:, 1].max() + MARGIN
 
 
 def draw_maps(figure, panels, maps, window, colours):
     shown = [np.ma.masked_where(one.n < FEWEST, one.force) for one in maps]
-    limit = max(np.percentile(abs(np.concatenate([one.compressed() for one in shown])), 98), 1e-12)
+    known = np.concatenate([one.compressed() for one in shown])
+    if not len(known):
+        raise MissingData(f"needs {FEWEST} grains at the surface in a bin of the map")
+    limit = max(np.percentile(abs(known), 98), 1e-12)
     for index, (axes, one, values) in enumerate(zip(panels.flat, maps, shown)):
         x, z = (1e3 * edges for edges in one.edges)
         image = axes.pcolormesh(x, z, values.T, vmin=-limit, vmax=limit, cmap=style.FORCE_MAP, rasterized=True)
@@ -93,12 +101,12 @@ def draw_curves(panels, found, pair, colours, first):
               for force, colour, name, role in zip(found.force, colours, pair, ("upstream", "downstream"))]
     curves += [(force, colour, "--", f"upstream end of dune {name}")
                for force, colour, name in zip(found.end, colours, pair)]
-    highest = 0.0
+    lowest, highest = 0.0, 0.0
     for force, colour, dashes, label in curves:
         t, mean, interval = found.means(force)
         if np.isfinite(mean).any():
             forces.plot(t, mean, color=colour, ls=dashes, label=label, marker="o", ms=2)
-            highest = max(highest, np.nanmax(mean))
+            lowest, highest = min(lowest, np.nanmin(mean - interval)), max(highest, np.nanmax(mean + interval))
         forces.fill_between(t, mean - interval, mean + interval, color=colour, alpha=0.15, lw=0)
     for values, dashes, where in ((found.foreign, "-", "in"), (found.amid, "--", "amid grains of")):
         for share, colour, name, other in zip(values, colours, pair, pair[::-1]):
@@ -114,7 +122,9 @@ def draw_curves(panels, found, pair, colours, first):
                           zorder=0)
         axes.legend(loc="upper left", ncols=2)
         style.panel_label(axes, first + index)
-    forces.set(ylabel="force / weight", ylim=(0, 1.7 * highest))
+    forces.set_ylabel("force /\nsubmerged weight")
+    if highest > lowest:
+        forces.set_ylim(lowest, highest + 0.6 * (highest - lowest))  # room for the legend
     shares.set(xlabel="$t$ (s)", ylabel="grains (%)", xlim=found.t[[0, -1]], ylim=(0, 1.6 * shares.get_ylim()[1]))
 
 
@@ -123,9 +133,9 @@ def sentences(found, pair):
     for one in found.maps:
         chosen = (found.t >= one.start) & (found.t <= one.end)
         up, down, *ends = (mean_of(values[chosen]) for values in (*found.force, *found.end))
-        told.append(f"{one.moment}, {one.start:.3g} to {one.end:.3g} s: force of the water on surface grains over "
-                    f"their weight {up} on dune {pair[0]}, {down} on dune {pair[1]} downstream; at the upstream end "
-                    f"{ends[0]} and {ends[1]}")
+        told.append(f"{one.moment}, {one.start:.3g} to {one.end:.3g} s: force of the water on surface grains, over the "
+                    f"submerged weight of a grain of mean diameter, {up} on dune {pair[0]}, {down} on dune {pair[1]} "
+                    f"downstream; at the upstream end {ends[0]} and {ends[1]}")
     for name, foreign, amid in zip(pair, found.foreign, found.amid):
         told.append(f"dune {name}: {100 * foreign[-1]:.1f} % of its first grains are in the other dune by name at the "
                     f"end, {100 * amid[-1]:.1f} % lie amid more grains of the other")
