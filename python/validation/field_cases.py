@@ -14,7 +14,8 @@ A row is a number of a run: of the whole run, or at a time t, every half second.
   that moves by less than a diameter in this time; `change from 2 s`: of its grains, to the end, over those at 2 s;
 - `first at REGION`, `first in horns`: share of the first kind there less its share of the dune, second half of the run;
 - `segregation`: the first kind's share at the surface of the downstream third less that of the upstream third;
-- `distance` of two ridges, the shorter way round; `grains of up/downstream`: of the named dunes;
+- `distance` of two ridges, the shorter way round, while both have half of their first grains; `first`: from 1 to 2 s,
+  `last`: of the last second; `grains of up/downstream`: of the named dunes;
 - the columns of laws.csv.
 """
 
@@ -119,15 +120,15 @@ def segregation(run, index):
 def ridges(run, _):
     length = run.config["domain"]["size"][0]
     first, second = (run.dune_columns.get(label) for label in (0, 1))
-    t, places = np.unique(np.intersect1d(first["t"], second["t"])), []
-    for dune in (first, second):
-        known, rows = np.unique(dune["t"], return_index=True)
-        places.append(dune["Cx"][rows][np.isin(known, t)])
-    apart = (places[1] - places[0]) % length
+    t, rows, others = np.intersect1d(first["t"], second["t"], return_indices=True)
+    parts = [dune["n_grains"][at] / dune["n_grains"][0] for dune, at in ((first, rows), (second, others))]
+    whole = np.min(parts, axis=0)
+    t = t[:np.argmax(np.append(whole < 0.5, True))]
+    apart = (second["Cx"][others] - first["Cx"][rows])[:len(t)] % length
     shorter = np.minimum(apart, length - apart)
-    yield None, "first distance", shorter[t < 1].mean()
+    yield None, "first distance", shorter[(t > 1) & (t < 2)].mean()
     yield None, "last distance", shorter[t > t[-1] - 1].mean()
-    yield None, "both there until", t[-1]
+    yield None, "lasts", t[-1]
     yield from curve("distance", t, shorter)
 
 

@@ -30,15 +30,16 @@ def measured(rows):
 
 def test_ridges_across_the_seam_are_as_far_apart_as_the_shorter_way():
     """One stands at 46 mm of 48 mm, the other goes from 11 mm behind it, through the seam, to 31 mm: 17 mm the other
-    way round."""
-    t = np.linspace(0, 10, 101)
+    way round. Towards the end one of them has a third of its grains."""
+    t = np.linspace(0, 12, 121)
     apart = 0.011 + 0.002 * t
-    dunes = {0: {"t": t, "Cx": 0 * t + 0.046}, 1: {"t": t[:-1], "Cx": (0.046 + apart[:-1]) % 0.048}}
+    dunes = {0: {"t": t, "Cx": 0 * t + 0.046, "n_grains": np.where(t < 9.95, 900, 300)},
+             1: {"t": t[:-1], "Cx": (0.046 + apart[:-1]) % 0.048, "n_grains": 0 * t[:-1] + 800}}
     run = SimpleNamespace(config={"domain": {"size": [0.048, 0.0125, 0.01]}}, dune_columns=dunes)
     found = measured(field_cases.ridges(run, ""))
-    assert found["first distance"] == pytest.approx(0.011 + 0.002 * 0.45, abs=1e-6)
+    assert found["first distance"] == pytest.approx(0.011 + 0.002 * 1.5, abs=1e-6)
     assert found["last distance"] == pytest.approx(0.048 - (0.011 + 0.002 * 9.45), abs=1e-4)
-    assert found["both there until"] == pytest.approx(9.9)
+    assert found["lasts"] == pytest.approx(9.9)
 
 
 def test_what_a_fed_dune_gains_counts_from_two_seconds_on():
