@@ -235,7 +235,7 @@ def summary(source):
 
 MARKS = {encounters.MERGING: ("o", style.BLUE), encounters.EXCHANGE: ("s", style.VERMILLION),
          encounters.CHASING: (">", style.GREEN), encounters.FRAGMENTATION_CHASING: ("^", style.ORANGE),
-         encounters.FRAGMENTATION_EXCHANGE: ("v", style.PURPLE), encounters.UNDECIDED: ("x", style.GREY)}
+         encounters.FRAGMENTATION_EXCHANGE: ("v", style.PURPLE), encounters.DISPERSED: ("*", style.SKY), encounters.UNDECIDED: ("x", style.GREY)}
 
 
 def draw_map(ax, whole):

@@ -45,6 +45,7 @@ ABOUT = {
 
 CHASING, MERGING, EXCHANGE = "chasing", "merging", "exchange"
 FRAGMENTATION_CHASING, FRAGMENTATION_EXCHANGE = "fragmentation-chasing", "fragmentation-exchange"
+DISPERSED = "dispersed"
 UNDECIDED = "undecided"
 
 
@@ -217,7 +218,8 @@ class _Pair:
         touching = [frame for frame in range(start, self.end + 1) if self._touch(frame)]
         self.contact = touching[0] if touching else None
         self.apart = touching[-1] + 1 if touching and touching[-1] < self.end else None
-        self.last = self._last()
+        self.survivor = self._survivor()
+        self.last = self.end if self.survivor is None else self.survivor[0]
 
     def _side(self, name: int) -> set[int]:
         side = {name}
@@ -230,16 +232,23 @@ class _Pair:
         bodies = [{self.lineage.body[frame, name] for name in side} - {NONE} for side in self.sides]
         return bool(bodies[0] & bodies[1])
 
-    def _last(self) -> int:
-        """The last frame of both; where one dissolves while they touch, and the other takes up half of its grains, that
-        of the other."""
+    def _survivor(self) -> tuple[int, int] | None:
+        """Where one of two that touch is no longer found: (last frame of the other, grains that this one took up)."""
         frame, old, new, number = self.lineage.moves.T
         for gone, other in (self.sides, self.sides[::-1]) if self._touch(self.end) else ():
             there = np.nonzero(self.lineage.present[:, sorted(other)].any(axis=1))[0][-1]
-            taken = number[(frame > self.end) & np.isin(old, list(gone)) & np.isin(new, list(other))].sum()
-            if there > self.end and taken >= HALF * np.nansum(self.lineage.n_grains[self.end, sorted(gone)]):
-                return int(there)
-        return self.end
+            if there > self.end:
+                joined = (frame > self.end) & np.isin(old, list(gone)) & np.isin(new, list(other))
+                return int(there), int(number[joined].sum())
+        return None
+
+    def _kept(self) -> float:
+        """The part of the lighter dune's grains at the contact that it has in the last frame of both, or that the other
+        has taken up since."""
+        n = self.lineage.n_grains
+        side = sorted(self.sides[int(n[self.start, self.down] < n[self.start, self.up])])
+        left = np.nansum(n[self.end, side]) if self.survivor is None else self.survivor[1]
+        return float(left / np.nansum(n[self.contact, side]))
 
     def _counts(self, name: int) -> bool:
         """Whether a new dune is large enough and lasts."""
@@ -264,6 +273,8 @@ class _Pair:
         if self.apart is not None:
             changed = sum(self._changed(*order, self.contact) for order in (self.sides, self.sides[::-1]))
             return EXCHANGE if changed >= EXCHANGED * self.lighter else CHASING
+        if self._kept() < HALF:
+            return DISPERSED
         return MERGING if t[self.last] - t[self.contact] >= LASTS * (1 - 1e-9) else UNDECIDED
 
     def tell(self) -> tuple[Encounter, set[int]]:
