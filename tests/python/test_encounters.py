@@ -89,8 +89,8 @@ def test_a_dune_that_dissolves_in_contact_has_merged_if_its_grains_join_the_othe
 
 @pytest.mark.parametrize("left, kind", [(0.6, "merging"), (0.4, "dispersed")])
 def test_a_dune_that_is_carried_away_in_contact_is_dispersed(left, kind):
-    """From 5 s on only a part of the small one's grains are in the dune, where its name ends if they are less than half;
-    the others are loose."""
+    """From 5 s on only a part of the small one's grains are in the dune, the others are loose. Its name ends if they
+    are less than half."""
     pair = Pair(built.merging())
     frames = pair.frames()
     carried = np.arange(pair.n) % 100 >= 100 * left
