@@ -1,18 +1,15 @@
-"""Pictures of the pages: film, six top views and 3-D still of one run, every grain a sphere; grains of fed dunes.
+"""Pictures of the pages: film, six top views and 3-D still of one run, every grain a sphere.
 
 Needs barchan and, of Debian, python3-numpy python3-matplotlib python3-pil python3-h5py python3-pandas ffmpeg povray.
 
     PYTHONPATH=python python3 docs/site/pictures.py runs/barchan-10k [film] [grid] [hero] [--time 9.36]
 
-    PYTHONPATH=python python3 docs/site/pictures.py runs/field/fed-dune fed
-
     ./barchan run configs/validation/resolved-load.toml --out runs/film --set time.end=0.34096 \\
         --set output.grains_interval=2.56e-4 --set output.fields_interval=1.024e-3
     PYTHONPATH=python python3 docs/site/pictures.py runs/film bed --every 1
 
-film: docs/site/barchan.mp4 and .png, docs/barchan.webp; grid: docs/barchan-10k.png; hero: docs/barchan.png; fed:
-docs/fed-dune-grains.svg, with runs/field/unfed-dune beside; bed: docs/site/resolved-bed.mp4 and .png, the last
-40 intervals of the fields.
+film: docs/site/barchan.mp4 and .png, docs/barchan.webp; grid: docs/barchan-10k.png; hero: docs/barchan.png; bed:
+docs/site/resolved-bed.mp4 and .png, the last 40 intervals of the fields.
 Lengths are in millimetres; x points along the flow, y upward, z across. In views from above x points to the right
 and z down the page, as in the figures of the program: the left horn is the upper one.
 """
@@ -29,8 +26,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 import barchan
-from barchan.figures import grain_image, style
-from matplotlib.figure import Figure
+from barchan.figures import grain_image
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -242,20 +238,6 @@ def hero(run: barchan.Run, work: Path, t: float) -> None:
     Image.open(picture).convert("RGB").quantize(256).save(DOCS / "barchan.png", optimize=True)
 
 
-def fed(run: barchan.Run) -> None:
-    """Grains of a dune that is fed, and of one that is not, against time."""
-    with style.look():
-        figure = Figure(figsize=(style.FULL_WIDTH / 2, 2.2))
-        axes = figure.subplots()
-        for one, label, colour in ((run, "fed", style.BLUE),
-                                   (barchan.Run(run.path.parent / "unfed-dune"), "not fed", style.VERMILLION)):
-            dune = one.dunes.loc[0]
-            axes.plot(dune.index, dune["n_grains"], color=colour, label=label)
-        axes.set(xlabel="$t$ (s)", ylabel="grains of the dune", ylim=(2400, 3000))
-        axes.legend()
-        style.save(figure, DOCS, "fed-dune-grains", run.title, ("svg",))
-
-
 def bed(run: barchan.Run, work: Path, every: int) -> None:
     """Film of resolved grains from the side; the water behind is blue where it is slower than its row, red: faster."""
     (frames := work / "bed").mkdir(parents=True, exist_ok=True)
@@ -292,7 +274,7 @@ def bed(run: barchan.Run, work: Path, every: int) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run")
-    parser.add_argument("pictures", nargs="*", help="film, grid, hero (if none is named), fed, bed")
+    parser.add_argument("pictures", nargs="*", help="film, grid, hero (if none is named), bed")
     parser.add_argument("--time", type=float, default=9.36, help="time of the still and of the poster in s")
     parser.add_argument("--times", type=float, nargs=6, default=[0, 2, 4, 6, 8, 9.4], help="times of the six views")
     parser.add_argument("--every", type=int, default=3, help="step between the frames of the film")
@@ -300,7 +282,7 @@ def main() -> None:
     o = parser.parse_args()
     run, wanted = barchan.Run(o.run), o.pictures or ["film", "grid", "hero"]
     calls = {"hero": (hero, o.work, o.time), "grid": (grid, o.times), "film": (film, o.work, o.time, o.every),
-             "fed": (fed,), "bed": (bed, o.work, o.every)}
+             "bed": (bed, o.work, o.every)}
     for call, *values in (calls[name] for name in wanted):
         call(run, *values)
 

@@ -20,9 +20,10 @@ TIMES = {
     "two-densities": (0, 3, 6), "two-ridges": (0, 8, 16), "two-heaps": (0, 4, 8),
     "encounters-1000-in-line": (0, 4, 8), "encounters-1600-beside": (0, 4, 8),
     "barchan-meets-cylinder": (2, 5, 9), "barchan-meets-dune": (2, 5, 9), "barchan-meets-crater": (0, 2, 5),
-    "fed-dune": (2, 4, 6),
+    "sizes-8k": (0, 3, 6), "fed-dune": (2, 4, 6),
 }
 COLUMNS = 3
+TALLEST = 0.55  # width over length of a view
 GAP, HEAD = 0.03, 0.18  # [in] between views; above a row, for its title
 
 
@@ -37,7 +38,14 @@ def rows_of(study):
         window = (common_window(dunes) if dunes and frames[0].group is None
                   else frame_window([frame for frame in frames if len(frame.d)]))
         bodies = bodies_of(case.run)
-        yield case.name, frames, body_pictures.in_window(window, bodies), bodies
+        yield case.name, frames, flat(body_pictures.in_window(window, bodies)), bodies
+
+
+def flat(window):
+    """The window (x0, x1, z0, z1) [m], longer where it is too wide for its length."""
+    x0, x1, z0, z1 = window
+    more = max(0.0, (z1 - z0) / TALLEST - (x1 - x0))
+    return x0 - more / 2, x1 + more / 2, z0, z1
 
 
 def draw(study):
