@@ -124,7 +124,7 @@ def check_figures(page, line, arguments):
     for word in arguments[1:]:
         if not skip and not word.startswith("-") and arguments[0] != "validation" and word not in names:
             say(page, f"{line}: there is no figure {word}")
-        skip = word in ("--from", "--to", "--time", "--column")
+        skip = word in ("--from", "--to", "--time", "--column", "--only")
 
 
 # --- cases and Python
