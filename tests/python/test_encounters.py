@@ -87,6 +87,13 @@ def test_a_dune_that_dissolves_in_contact_has_merged_if_its_grains_join_the_othe
     assert one.to_downstream == pytest.approx(len(SMALL) if joins else 0, rel=0.02, abs=LOOSE / 4)
 
 
+@pytest.mark.parametrize("nearer, kind", [(0.4e-3, "chasing"), (0.6e-3, "undecided")])
+def test_two_dunes_chase_each_other_while_they_come_no_nearer_than_a_bin(nearer, kind):
+    pair = Pair([(SMALL, 0, built.line(built.X0, nearer / TIMES[-1])), (LARGE, 1, built.line(built.X1, 0.0))])
+    one, = find(follow(pair.frames(), pair.bed), pair.bed)
+    assert one.kind == kind
+
+
 @pytest.mark.parametrize("left, kind", [(0.6, "merging"), (0.4, "dispersed")])
 def test_a_dune_that_is_carried_away_in_contact_is_dispersed(left, kind):
     """From 5 s on only a part of the small one's grains are in the dune, the others are loose. Its name ends if they

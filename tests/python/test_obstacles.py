@@ -98,6 +98,13 @@ def test_times_shares_and_celerities(tmp_path):
     assert one.downstream > 0.97 and one.over > 0.97 and one.together > 0.97
 
 
+def test_whether_a_dune_stands_is_not_known_after_a_contact_in_the_first_second(tmp_path):
+    """It goes from 21 mm, where it all but touches the hill, to 25.3 mm in 1.4 s, and stays."""
+    stays = [(SMALL, 0, after(1.4, line(0.021, SPEED), lambda t: np.array((0.0253, 0.015))))]
+    one, = obstacles.find(barchan.open(told(stays, WIDE, tmp_path)))
+    assert one.t_contact < 1 and np.isnan(one.celerity_before) and one.outcome == "undecided"
+
+
 def test_half_of_a_dune_on_the_way(tmp_path):
     """Of a dune that stands on the hill parts are before, on and behind it, as its grains lie."""
     one, = obstacles.find(barchan.open(told(until(0.034), WIDE, tmp_path)))

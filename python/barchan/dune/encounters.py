@@ -15,7 +15,7 @@ import numpy as np
 
 from barchan.dune.current import direction
 from barchan.dune.lineage import HALF, NONE, Lineage, follow
-from barchan.dune.shape import Bed
+from barchan.dune.shape import BIN, Bed
 from barchan.dune.tracks import Tracks, tracks
 from barchan.errors import MissingData
 from barchan.io.run_folder import RunFolder
@@ -265,7 +265,10 @@ class _Pair:
         if self.contact is None:
             if splits:
                 return FRAGMENTATION_CHASING
-            return CHASING if self.distance[-1] > self.distance[0] else UNDECIDED
+            n, volume = (values[self.start, [self.up, self.down]].sum() for values in (self.lineage.n_grains,
+                                                                                      self.lineage.volume))
+            near = BIN * (6 / np.pi * volume / n)**(1 / 3)
+            return CHASING if self.distance[-1] > self.distance[0] - near else UNDECIDED
         if splits or len(ejected) > 1:
             return FRAGMENTATION_EXCHANGE
         if ejected:

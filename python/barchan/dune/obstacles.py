@@ -65,7 +65,7 @@ class Meeting:
 
     Shares of the dune's grains at the end: `upstream`, `around`, `downstream`; `over`: of those downstream the share
     that was seen on top of the obstacle, or in it; `together`: within TOGETHER times the first length. Celerities [m/s]
-    over the last second before the contact, and before the end.
+    over the last second before the contact, not known for one in the first second, and before the end.
     """
 
     dune: str
@@ -218,7 +218,8 @@ class _Followed:
         contact = np.flatnonzero(np.array(self.touched) >= TOUCH)
         median = np.array([np.nanmedian(row) if np.isfinite(row).any() else np.nan for row in s])
         before = t[contact[0]] if len(contact) else t[-1]
-        speeds = _slope(t, median, before), _slope(t, median, t[-1])
+        free = before - t[0] >= SECOND * (1 - 1e-9)
+        speeds = _slope(t, median, before) if free else np.nan, _slope(t, median, t[-1])
         passed = gone[-1] | (s[-1] > self.ends[1])
         over = float(np.mean(self.on[passed])) if passed.any() else np.nan
         together = _together(s[-1], TOGETHER * (np.nanquantile(s[0], 0.975) - np.nanquantile(s[0], 0.025)))
