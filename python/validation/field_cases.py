@@ -35,6 +35,7 @@ NAME = "field_cases"
 COLUMNS = "case,realisation,t,quantity,value"
 EVERY = 0.5  # [s] between the times of curves
 CLASS = "class"
+SLOW = 0.0, 3.0, 6.0  # [s]: turns of turn-slow, whose spans turn-never is measured over
 
 
 def main_dune(run, along=None):
@@ -62,6 +63,8 @@ def turning(run, name):
     """A dune in a current that turns: fast turns leave it no direction but their mean."""
     yield from main_dune(run, np.array(current.ALONG_X) if name == "turn-fast" else None)
     dune, turns = run.main_dune_columns, current.currents(run.config)
+    if name == "turn-never":
+        turns = [(start, turns[0][1]) for start in SLOW]
     t, n = dune["t"], dune["n_grains"] / dune["n_grains"][0]
     yield None, "lasts", t[-1]
     yield from curve("grains", t, dune["n_grains"])
