@@ -21,15 +21,12 @@ class Study(StudyFolder):
 
     study["base"] is the first run of a case, study["base-r2"] its second realisation; KeyError where it is not there.
 
-    Parameters
-    ----------
-    path : str or pathlib.Path
-        The folder of the study; an attribute, too.
-    only : str or sequence of str, optional
-        The cases whose names fit one of these patterns (*, ?, [abc]); all by default.
-
     Attributes
     ----------
+    path : pathlib.Path
+        The folder of the study, which barchan.Study(path) takes.
+    only : list of str
+        The cases whose names fit one of these patterns (*, ?, [abc]), which Study(path, only) takes; empty: all.
     title : str
         Title of the study.
     cases : list of Case

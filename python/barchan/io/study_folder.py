@@ -93,7 +93,7 @@ class StudyFolder:
     def __init__(self, path: str | Path, only: Iterable[str] = ()) -> None:
         """`only`: the cases whose names fit one of these patterns (*, ?, [abc]); all by default."""
         self.path = Path(path)
-        only = [only] if isinstance(only, str) else list(only)
+        self.only = [only] if isinstance(only, str) else list(only)
         try:
             study = json.loads((self.path / NAME).read_text())
             self.title = study.get("title") or self.path.resolve().name
@@ -103,12 +103,12 @@ class StudyFolder:
             raise BarchanError(f"cannot read {self.path / NAME}: {error}") from error
         except (KeyError, TypeError, AttributeError) as error:
             raise BarchanError(f"{self.path / NAME} does not list its cases as a study does") from error
-        for pattern in only:
+        for pattern in self.only:
             if not fnmatch.filter([case.name for case in self.cases], pattern):
                 raise BarchanError(f'no case "{pattern}" in {self.path}; it has '
                                    + ", ".join(case.name for case in self.cases))
         self.cases = [case for case in self.cases
-                      if not only or any(fnmatch.fnmatchcase(case.name, pattern) for pattern in only)]
+                      if not self.only or any(fnmatch.fnmatchcase(case.name, pattern) for pattern in self.only)]
 
     def _case(self, entry: dict[str, Any]) -> Case:
         path = self.path / entry["folder"]
