@@ -170,9 +170,8 @@ def lists_of(table, path, section):
     return lists
 
 
-def one_at_a_time(lists, base, common, path):
+def one_at_a_time(lists, base, base_config, common, path):
     """The base case, then for each key its other values."""
-    base_config = load_case(base)
     fixed = {key: common.get(key, lookup(base_config, key)) for key in lists}
     for key, value in fixed.items():
         if value is None:  # the program's default is not known here, and a guess would be wrong
@@ -313,8 +312,8 @@ def runs_of(table, path):
     cases, runs = cases_of_files(head.get("of", []), common, path)
     if "base" in head:
         base = (path.parent / head["base"]).resolve()
-        load_case(base)
-        own = one_at_a_time(lists_of(table["vary"], path, "vary"), base, common, path) if "vary" in table else []
+        lists, config = lists_of(table.get("vary", {}), path, "vary"), load_case(base)
+        own = one_at_a_time(lists, base, config, common, path) if "vary" in table else []
         own += all_combinations(lists_of(table.get("grid", {}), path, "grid"), base, common, path)
         cases = own + named_cases(tables_of(table), base, common, path) + cases
     runs = ensemble_of(cases, table.get("ensemble", {}), path) + runs
