@@ -1,9 +1,15 @@
 #include "src/io/hdf5_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/ranges.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include "src/base/atomic_file.hpp"
@@ -110,7 +116,25 @@ void Hdf5File::check_writes() const {
   if (!failure_->empty()) fail(*failure_, {});
 }
 
+void Hdf5File::take_room() const {
+#ifdef __linux__
+  constexpr off_t tables = 1 << 16;  // most that the library puts behind the end at the close
+  const int file = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+  struct stat status {};
+  int error = file < 0 || ::fstat(file, &status) != 0 ? errno : 0;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur < rlim_t(status.st_size + tables))
+    error = EFBIG;
+  if (error == 0 && ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, status.st_size + tables) != 0)
+    error = errno;
+  if (file >= 0) ::close(file);
+  const bool cannot_tell = error == EOPNOTSUPP || error == ENOSYS || error == EINTR;
+  if (error != 0 && !cannot_tell) fail(std::generic_category().message(error), {});
+#endif
+}
+
 void Hdf5File::close() {
+  if (parallel_ && mode_ != Mode::read && file_ >= 0) take_room();
   if (hidden_ >= 0) check(H5Gclose(std::exchange(hidden_, -1)));
   if (file_ >= 0) check(H5Fclose(std::exchange(file_, -1)));
   check_writes();

@@ -127,6 +127,10 @@ class Hdf5File {
   /// Returns what an HDF5 function returned, or throws with the library's reason.
   template <class Code>
   Code check(Code code, const std::string& object = {}) const;
+  /// Takes the room on the disk that a file of several ranks still needs. Throws where there is
+  /// none: when the library then could not write its tables on one rank, the others would wait
+  /// within it for ever.
+  void take_room() const;
   /// Throws if the serial driver noted a failure.
   void check_writes() const;
   template <class T>
