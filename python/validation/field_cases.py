@@ -14,6 +14,7 @@ A row is a number of a run: of the whole run, or at a time t, every half second.
   that moves by less than a diameter in this time; `change from 2 s`: of its grains, to the end, over those at 2 s;
 - `first at REGION`, `first in horns`: share of the first kind there less its share of the dune, second half of the run;
 - `segregation`: the first kind's share at the surface of the downstream third less that of the upstream third;
+- `past the cylinder`: the part of the first grains that, without it, is beyond its place, or has left the domain;
 - `distance` of two ridges, the shorter way round, while both have half of their first grains; `first`: from 1 to 2 s,
   `last`: of the last second; `grains of up/downstream`: of the named dunes;
 - the columns of laws.csv.
@@ -35,6 +36,7 @@ NAME = "field_cases"
 COLUMNS = "case,realisation,t,quantity,value"
 EVERY = 0.5  # [s] between the times of curves
 CLASS = "class"
+CYLINDER = 0.0255  # [m]: downstream end of the cylinder of barchan-meets-cylinder
 SLOW = 0.0, 3.0, 6.0  # [s]: turns of turn-slow, whose spans turn-never is measured over
 
 
@@ -164,6 +166,14 @@ def obstacle(run, _):
         yield None, name, getattr(one, name)
 
 
+def alone(run, _):
+    """The dune without an obstacle."""
+    yield from main_dune(run)
+    source = tracks(run)
+    first, last = source.read(0), source.read(len(source.times) - 1)
+    yield None, "past the cylinder", 1 - np.isin(first.id, last.id[last.x[:, 0] < CYLINDER]).mean()
+
+
 def size(run, _):
     for name, value in laws.of_run(run).items():
         yield None, name, value
@@ -178,7 +188,7 @@ def fed(run, _):
 
 
 KINDS = {"encounters-": meeting, "two-heaps": meeting, "turn-": turning, "reversal": reversal, "two-densities": mixture,
-         "two-ridges": ridges, "barchan-meets-": obstacle, "sizes-": size, "fed-": fed, "unfed-": fed}
+         "two-ridges": ridges, "barchan-meets-": obstacle, "barchan": alone, "sizes-": size, "fed-": fed, "unfed-": fed}
 
 
 def rows_of(study):

@@ -1,6 +1,7 @@
 """Outcomes of the cases from the literature: every case has a measure, and the measures find what was built."""
 
 import argparse
+import tomllib
 from types import SimpleNamespace
 
 import numpy as np
@@ -46,6 +47,18 @@ def test_what_a_fed_dune_gains_counts_from_two_seconds_on():
     t = np.linspace(0, 6, 61)
     run = SimpleNamespace(main_dune_columns={"t": t, "n_grains": np.where(t < 2, 9e9, 1000 - 10 * (t - 2))})
     assert next(field_cases.fed(run, ""))[1:] == ("change from 2 s", pytest.approx(-0.04))
+
+
+def test_grains_past_the_place_of_the_cylinder_and_grains_that_have_left(monkeypatch):
+    """Of five grains one lies beyond its place at the end, and one is gone; one that came later does not count."""
+    frames = [SimpleNamespace(id=np.arange(5), x=np.full((5, 3), 0.01)),
+              SimpleNamespace(id=np.array([0, 1, 2, 3, 9]), x=np.array([0.010, 0.012, 0.0254, 0.0256, 0.03])[:, None])]
+    monkeypatch.setattr(field_cases, "tracks", lambda run: SimpleNamespace(times=[0, 9], read=frames.__getitem__))
+    monkeypatch.setattr(field_cases, "main_dune", lambda run: iter(()))
+    assert measured(field_cases.alone(None, "")) == {"past the cylinder": pytest.approx(0.4)}
+    file = ROOT / "configs/field/barchan-meets-cylinder-flow.toml"
+    cylinder = tomllib.loads(file.read_text())["body"][0]
+    assert cylinder["centre"][0] + cylinder["radius"] == pytest.approx(field_cases.CYLINDER)
 
 
 def test_a_dune_in_a_current_that_turns(monkeypatch):
