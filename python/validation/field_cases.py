@@ -3,7 +3,8 @@ folder of the study, runs/field/all, and draws its runs from above, field_views.
 
 A row is a number of a run: of the whole run, or at a time t, every half second. Quantities:
 - `class` of an encounter or obstacle (docs/dune-measures.md), with columns of encounters.csv, where `to_upstream` and
-  `to_downstream` are parts of the lighter dune's grains, or of obstacles.csv; `upstream lost`, `downstream lost`: parts
+  `to_downstream` are parts of the lighter dune's grains, or of obstacles.csv, with `moved`, the way of the median grain
+  [m]; `upstream lost`, `downstream lost`: parts
   of the dunes' first grains, less what they got;
 - `grains`, `W`, `L`, `horn`, `crest`, `lost`: of the main dune, at its end means of the last second, along the last
   current (in turn-fast along the mean of both); the longer horn; how far the crest is downstream of the centroid, over
@@ -37,6 +38,7 @@ COLUMNS = "case,realisation,t,quantity,value"
 EVERY = 0.5  # [s] between the times of curves
 CLASS = "class"
 CYLINDER = 0.0255  # [m]: downstream end of the cylinder of barchan-meets-cylinder
+CRATER = {"centre": [0.021, 0.007], "radius": 0.003}  # of barchan-meets-crater [m]
 SLOW = 0.0, 3.0, 6.0  # [s]: turns of turn-slow, whose spans turn-never is measured over
 
 
@@ -161,9 +163,20 @@ def meeting(run, name):
 def obstacle(run, _):
     (one, *_) = obstacles.find(run)
     yield None, CLASS, one.outcome
+    yield from met(one)
+
+
+def met(one):
+    yield None, "moved", one.path.s[-1] - one.path.s[0]
     for name in ("t_contact", "upstream", "around", "downstream", "over", "together", "celerity_before",
                  "celerity_after"):
         yield None, name, getattr(one, name)
+
+
+def without_crater(run, _):
+    """The dune of barchan-meets-crater against the place of its crater."""
+    (one, *_) = obstacles.find(run, [obstacles.crater(0, CRATER)])
+    yield from met(one)
 
 
 def alone(run, _):
@@ -188,7 +201,8 @@ def fed(run, _):
 
 
 KINDS = {"encounters-": meeting, "two-heaps": meeting, "turn-": turning, "reversal": reversal, "two-densities": mixture,
-         "two-ridges": ridges, "barchan-meets-": obstacle, "barchan": alone, "sizes-": size, "fed-": fed, "unfed-": fed}
+         "two-ridges": ridges, "barchan-meets-": obstacle, "barchan-on-shot": without_crater, "barchan": alone,
+         "sizes-": size, "fed-": fed, "unfed-": fed}
 
 
 def rows_of(study):
@@ -248,7 +262,8 @@ def summary(source):
 
 MARKS = {encounters.MERGING: ("o", style.BLUE), encounters.EXCHANGE: ("s", style.VERMILLION),
          encounters.CHASING: (">", style.GREEN), encounters.FRAGMENTATION_CHASING: ("^", style.ORANGE),
-         encounters.FRAGMENTATION_EXCHANGE: ("v", style.PURPLE), encounters.DISPERSED: ("*", style.SKY), encounters.UNDECIDED: ("x", style.GREY)}
+         encounters.FRAGMENTATION_EXCHANGE: ("v", style.PURPLE), encounters.DISPERSED: ("*", style.SKY),
+         encounters.UNDECIDED: ("x", style.GREY)}
 
 
 def draw_map(ax, whole):

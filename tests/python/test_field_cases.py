@@ -49,6 +49,12 @@ def test_what_a_fed_dune_gains_counts_from_two_seconds_on():
     assert next(field_cases.fed(run, ""))[1:] == ("change from 2 s", pytest.approx(-0.04))
 
 
+def test_the_control_looks_at_the_place_of_the_crater():
+    case = tomllib.loads((ROOT / "configs/field/barchan-meets-crater.toml").read_text())
+    (crater,) = case["initial"]["crater"]
+    assert {name: crater[name] for name in field_cases.CRATER} == field_cases.CRATER
+
+
 def test_grains_past_the_place_of_the_cylinder_and_grains_that_have_left(monkeypatch):
     """Of five grains one lies beyond its place at the end, and one is gone; one that came later does not count."""
     frames = [SimpleNamespace(id=np.arange(5), x=np.full((5, 3), 0.01)),

@@ -100,7 +100,7 @@ def obstacles_of(run: RunFolder) -> list[Obstacle]:
     """Bodies but waves and those through the whole domain along the current, then craters."""
     found = [_body(body) for body in bodies_of(run) if body.reach[1] - body.reach[0] < body.domain[0]]
     craters = run.config.get("initial", {}).get("crater", ())
-    return found + [_crater(number, table) for number, table in enumerate(craters)]
+    return found + [crater(number, table) for number, table in enumerate(craters)]
 
 
 def _body(body: Body) -> Obstacle:
@@ -109,7 +109,8 @@ def _body(body: Body) -> Obstacle:
                     lambda x, d: body.touches(x, 1.5 * d))
 
 
-def _crater(number: int, table: dict[str, Any]) -> Obstacle:
+def crater(number: int, table: dict[str, Any]) -> Obstacle:
+    """The crater of a table [[initial.crater]]."""
     (x0, z0), radius = table["centre"], table["radius"]
     angle = np.linspace(0, 2 * np.pi, 91)
 
@@ -121,9 +122,10 @@ def _crater(number: int, table: dict[str, Any]) -> Obstacle:
                     lambda x, d: inside(x))
 
 
-def find(run: RunFolder) -> list[Meeting]:
-    """Each dune with each obstacle that lies in its way. Raises MissingData where there is nothing to tell."""
-    obstacles = obstacles_of(run)
+def find(run: RunFolder, obstacles: list[Obstacle] | None = None) -> list[Meeting]:
+    """Each dune with each obstacle that lies in its way, of the case or, for a control, of these. Raises MissingData
+    where there is nothing to tell."""
+    obstacles = obstacles_of(run) if obstacles is None else obstacles
     if not obstacles:
         raise MissingData("needs a [[body]] or an [[initial.crater]] in the case, and tracks.h5 or grains.h5")
     source = tracks(run)
