@@ -167,6 +167,7 @@ def obstacle(run, _):
 
 
 def met(one):
+    """How it went on both sides of the obstacle, or of its place."""
     yield None, "moved", one.path.s[-1] - one.path.s[0]
     for name in ("t_contact", "upstream", "around", "downstream", "over", "together", "celerity_before",
                  "celerity_after"):
