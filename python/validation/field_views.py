@@ -19,7 +19,8 @@ TIMES = {
     "turn-slow": (2.9, 5.9, 9), "turn-fast": (0.9, 2.9, 4.5), "reversal": (2.9, 6, 10),
     "two-densities": (0, 3, 6), "two-ridges": (0, 8, 16), "two-heaps": (0, 4, 8),
     "encounters-1000-in-line": (0, 4, 8), "encounters-1600-beside": (0, 4, 8),
-    "barchan-meets-cylinder": (2, 5, 9), "barchan-meets-dune": (2, 9, 18), "barchan-meets-crater": (0, 3.5, 7), "barchan-on-shot": (0, 3.5, 7),
+    "barchan-meets-cylinder": (2, 5, 9), "barchan-meets-dune": (2, 9, 18), "barchan-meets-crater": (0, 3.5, 7),
+    "barchan-on-shot": (0, 3.5, 7),
     "sizes-8k": (0, 3, 6), "fed-dune": (2, 4, 6),
 }
 COLUMNS = 3
