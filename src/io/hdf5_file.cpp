@@ -122,11 +122,13 @@ void Hdf5File::take_room() const {
   const int file = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
   struct stat status {};
   int error = file < 0 || ::fstat(file, &status) != 0 ? errno : 0;
+  const off_t end = status.st_size + tables;
   rlimit limit{};
-  if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur < rlim_t(status.st_size + tables))
+  if (error == 0 && ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur < rlim_t(end)) {
     error = EFBIG;
-  if (error == 0 && ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, status.st_size + tables) != 0)
+  } else if (error == 0 && ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, end) != 0) {
     error = errno;
+  }
   if (file >= 0) ::close(file);
   const bool cannot_tell = error == EOPNOTSUPP || error == ENOSYS || error == EINTR;
   if (error != 0 && !cannot_tell) fail(std::generic_category().message(error), {});

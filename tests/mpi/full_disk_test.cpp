@@ -10,9 +10,9 @@
 #include "tests/support/shared_folder.hpp"
 
 namespace barchan {
-using test::SharedFolder;
-
 namespace {
+
+using test::SharedFolder;
 
 // One rank cannot write its part of the library's own tables, which are written when the file is
 // closed: it says so, while the others wait within the library. ctest runs it alone, as

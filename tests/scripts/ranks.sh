@@ -106,7 +106,7 @@ run 2 flow.toml --out full --set time.end=0.01 "${no_fields[@]}"
 mpirun "${options[@]}" -np 2 bash -c "trap '' XFSZ; [ \$OMPI_COMM_WORLD_RANK -eq 0 ] || ulimit -f 50; exec \"\$@\"" - \
   "$BARCHAN_PROGRAM" run flow.toml --quiet --out full --restart full/restart_0000000010.h5 "${no_fields[@]}" \
   > full.out 2>&1 &
-job=$!  # the disk of rank 1 is full beyond 50 kB
+job=$! ranks=$!  # the disk of rank 1 is full beyond 50 kB
 breaks full "rank 1: cannot write full/restart_.*the last good restart is full/restart_0000000010.h5"
 ranks=""
 echo "ok"
