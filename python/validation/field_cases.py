@@ -4,8 +4,8 @@ folder of the study, runs/field/all, and draws its runs from above, field_views.
 A row is a number of a run: of the whole run, or at a time t, every half second. Quantities:
 - `class` of an encounter or obstacle (docs/dune-measures.md), with columns of encounters.csv, where `to_upstream` and
   `to_downstream` are parts of the lighter dune's grains, or of obstacles.csv, with `moved`, the way of the median grain
-  [m]; `upstream lost`, `downstream lost`: parts
-  of the dunes' first grains, less what they got;
+  [m], also of controls without the obstacle; `upstream lost`, `downstream lost`: parts of the dunes' first grains, less
+  what they got;
 - `grains`, `W`, `L`, `horn`, `crest`, `lost`: of the main dune, at its end means of the last second, along the last
   current (in turn-fast along the mean of both); the longer horn; how far the crest is downstream of the centroid, over
   L, so that it is positive for a slip face that faces down the current; `lost`: the part of its first grains;
@@ -15,7 +15,6 @@ A row is a number of a run: of the whole run, or at a time t, every half second.
   that moves by less than a diameter in this time; `change from 2 s`: of its grains, to the end, over those at 2 s;
 - `first at REGION`, `first in horns`: share of the first kind there less its share of the dune, second half of the run;
 - `segregation`: the first kind's share at the surface of the downstream third less that of the upstream third;
-- `past the cylinder`: the part of the first grains that, without it, is beyond its place, or has left the domain;
 - `distance` of two ridges, the shorter way round, while both have half of their first grains; `first`: from 1 to 2 s,
   `last`: of the last second; `grains of up/downstream`: of the named dunes;
 - the columns of laws.csv.
@@ -37,8 +36,10 @@ NAME = "field_cases"
 COLUMNS = "case,realisation,t,quantity,value"
 EVERY = 0.5  # [s] between the times of curves
 CLASS = "class"
-CYLINDER = 0.0255  # [m]: downstream end of the cylinder of barchan-meets-cylinder
-CRATER = {"centre": [0.021, 0.007], "radius": 0.003}  # of barchan-meets-crater [m]
+PLACES = {  # [m]: where controls lack an obstacle
+    "barchan": {"centre": [0.024, 0.010], "radius": 0.0015},          # cylinder of barchan-meets-cylinder
+    "barchan-on-shot": {"centre": [0.021, 0.007], "radius": 0.003},   # crater of barchan-meets-crater
+}
 SLOW = 0.0, 3.0, 6.0  # [s]: turns of turn-slow, whose spans turn-never is measured over
 
 
@@ -174,18 +175,10 @@ def met(one):
         yield None, name, getattr(one, name)
 
 
-def without_crater(run, _):
-    """The dune of barchan-meets-crater against the place of its crater."""
-    (one, *_) = obstacles.find(run, [obstacles.crater(0, CRATER)])
+def control(run, name):
+    """A dune without an obstacle, against the place of one."""
+    (one, *_) = obstacles.find(run, [obstacles.crater(0, PLACES[name])])
     yield from met(one)
-
-
-def alone(run, _):
-    """The dune without an obstacle."""
-    yield from main_dune(run)
-    source = tracks(run)
-    first, last = source.read(0), source.read(len(source.times) - 1)
-    yield None, "past the cylinder", 1 - np.isin(first.id, last.id[last.x[:, 0] < CYLINDER]).mean()
 
 
 def size(run, _):
@@ -202,7 +195,7 @@ def fed(run, _):
 
 
 KINDS = {"encounters-": meeting, "two-heaps": meeting, "turn-": turning, "reversal": reversal, "two-densities": mixture,
-         "two-ridges": ridges, "barchan-meets-": obstacle, "barchan-on-shot": without_crater, "barchan": alone,
+         "two-ridges": ridges, "barchan-meets-": obstacle, "barchan": control,
          "sizes-": size, "fed-": fed, "unfed-": fed}
 
 

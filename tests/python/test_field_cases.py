@@ -49,22 +49,15 @@ def test_what_a_fed_dune_gains_counts_from_two_seconds_on():
     assert next(field_cases.fed(run, ""))[1:] == ("change from 2 s", pytest.approx(-0.04))
 
 
-def test_the_control_looks_at_the_place_of_the_crater():
-    case = tomllib.loads((ROOT / "configs/field/barchan-meets-crater.toml").read_text())
-    (crater,) = case["initial"]["crater"]
-    assert {name: crater[name] for name in field_cases.CRATER} == field_cases.CRATER
+def test_controls_look_at_the_places_of_the_obstacles():
+    def read(name):
+        return tomllib.loads((ROOT / f"configs/field/{name}.toml").read_text())
 
-
-def test_grains_past_the_place_of_the_cylinder_and_grains_that_have_left(monkeypatch):
-    """Of five grains one lies beyond its place at the end, and one is gone; one that came later does not count."""
-    frames = [SimpleNamespace(id=np.arange(5), x=np.full((5, 3), 0.01)),
-              SimpleNamespace(id=np.array([0, 1, 2, 3, 9]), x=np.array([0.010, 0.012, 0.0254, 0.0256, 0.03])[:, None])]
-    monkeypatch.setattr(field_cases, "tracks", lambda run: SimpleNamespace(times=[0, 9], read=frames.__getitem__))
-    monkeypatch.setattr(field_cases, "main_dune", lambda run: iter(()))
-    assert measured(field_cases.alone(None, "")) == {"past the cylinder": pytest.approx(0.4)}
-    file = ROOT / "configs/field/barchan-meets-cylinder-flow.toml"
-    cylinder = tomllib.loads(file.read_text())["body"][0]
-    assert cylinder["centre"][0] + cylinder["radius"] == pytest.approx(field_cases.CYLINDER)
+    (crater,) = read("barchan-meets-crater")["initial"]["crater"]
+    (cylinder,) = read("barchan-meets-cylinder-flow")["body"]
+    for name, obstacle in (("barchan-on-shot", crater), ("barchan", cylinder)):
+        place = field_cases.PLACES[name]
+        assert {key: obstacle[key] for key in place} == place
 
 
 def test_a_dune_in_a_current_that_turns(monkeypatch):

@@ -127,6 +127,14 @@ def test_a_domain_without_ends(tmp_path):
     assert one.celerity_after == pytest.approx(9e-3, rel=0.02)
 
 
+def test_a_control_without_a_crater_is_told_against_its_place(tmp_path):
+    """As the same grains with it."""
+    (tmp_path / "control").mkdir()
+    with_it = obstacles.find(barchan.open(told(through(), CRATER, tmp_path)))
+    place = obstacles.crater(0, {"centre": [0.03, 0.015], "radius": 0.004})
+    assert obstacles.find(barchan.open(told(through(), "", tmp_path / "control")), [place]) == with_it
+
+
 def test_of_heaps_on_a_bed_those_that_are_no_bed_are_followed(tmp_path):
     """The dune is heap 0; heap 1 lies still under it from end to end, so that the labels of a frame tell nothing."""
     x, z = (each.ravel() for each in np.meshgrid(np.arange(0, 0.08, 2 * D), np.arange(0, 0.03, 2 * D)))
