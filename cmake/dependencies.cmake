@@ -38,6 +38,7 @@ else()
 endif()
 
 find_package(CLI11 REQUIRED)
+find_package(Eigen3 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(ZLIB REQUIRED)
@@ -51,5 +52,5 @@ if(TOMLPLUSPLUS_LIBRARY)
   target_link_libraries(barchan::toml INTERFACE "${TOMLPLUSPLUS_LIBRARY}")
 endif()
 
-set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan::fft CLI11::CLI11 fmt::fmt
-    nlohmann_json::nlohmann_json ZLIB::ZLIB barchan::toml)
+set(BARCHAN_LIBRARIES Kokkos::kokkos MPI::MPI_CXX ${hdf5_target} barchan::fft CLI11::CLI11 Eigen3::Eigen
+    fmt::fmt nlohmann_json::nlohmann_json ZLIB::ZLIB barchan::toml)

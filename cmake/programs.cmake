@@ -13,7 +13,7 @@ target_include_directories(barchan_kernels INTERFACE "$<BUILD_INTERFACE:${PROJEC
 target_link_libraries(barchan_kernels INTERFACE Kokkos::kokkos)
 
 # A library of everything in src/ but programs. What its headers do not show is private.
-set(private_libraries CLI11::CLI11 ZLIB::ZLIB barchan::toml barchan::fft)
+set(private_libraries CLI11::CLI11 Eigen3::Eigen ZLIB::ZLIB barchan::toml barchan::fft)
 set(public_libraries ${BARCHAN_LIBRARIES})
 list(REMOVE_ITEM public_libraries ${private_libraries})
 function(barchan_core_library target)
@@ -21,6 +21,7 @@ function(barchan_core_library target)
   target_link_libraries(${target} PUBLIC barchan_kernels ${public_libraries}
     "$<BUILD_INTERFACE:barchan_flags>" "$<BUILD_INTERFACE:barchan_version>"
     PRIVATE ${private_libraries})
+  target_compile_definitions(${target} PRIVATE EIGEN_NO_CUDA)  # it serves the host alone
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${BARCHAN_ENABLE_UNITY} UNITY_BUILD_MODE GROUP)
   if(BARCHAN_ENABLE_PCH)
     target_precompile_headers(${target} PRIVATE <Kokkos_Core.hpp> <mpi.h> <filesystem> <string> <vector>)

@@ -15,9 +15,9 @@ speaker="barchan setup"
 . "$root/scripts/progress.sh"
 
 packages=(cmake g++ ninja-build pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libfftw3-dev
-  libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
+  libtomlplusplus-dev libcli11-dev libeigen3-dev libfmt-dev nlohmann-json3-dev zlib1g-dev
   python3 python3-h5py python3-numpy python3-matplotlib python3-pandas python3-xarray)
-test_packages=(git libeigen3-dev libgtest-dev libbenchmark-dev python3-scipy
+test_packages=(git libgtest-dev libbenchmark-dev python3-scipy
   python3-pytest mypy python3-nbconvert python3-ipykernel  # the Python package
   python3-pip python3-venv python3-wheel  # its installation
   python3-yaml python3-jsonschema  # the citation file; the schema of a case

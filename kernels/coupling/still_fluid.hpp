@@ -3,21 +3,29 @@
 
 #include "kernels/coupling/drag.hpp"
 #include "kernels/coupling/sphere_in_fluid.hpp"
+#include "kernels/grains/clump.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/sphere.hpp"
 
 namespace barchan {
 
 /// Still, unbounded fluid around the grains: weight, buoyancy, Schiller-Naumann drag, added mass.
-/// Where there is no fluid: weight alone.
+/// Where there is no fluid: weight alone. A clump is taken as the sphere of its volume; all acts on
+/// its first sphere.
 struct GatherStillFluid {
   Real rho_f = 0, mu_f = 0;
   SubmergedWeight weight;
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
+  Kokkos::View<const ClumpMotion*> clump = {};  // empty: all grains are spheres
+  Kokkos::View<const std::int64_t*> id = {};    // read with clumps
 
   KOKKOS_FUNCTION void operator()(int g) const {
-    const GrainKinematics grain = grains(g);
+    GrainKinematics grain = grains(g);
+    if (clump.extent(0) > 0) {
+      if (member_of_id(id(g)) > 0) return clear(g);
+      grain.r = clump(g).d / 2, grain.u = clump(g).u;
+    }
     on_grains.explicit_force(g) = weight(grain);
     if (!on_grains.has_fluid) return;
     const LocalFlow flow{
@@ -26,6 +34,14 @@ struct GatherStillFluid {
     on_grains.inv_fluid_mass(g) = 0;
     on_grains.beta(g) = SchillerNaumann{}(flow);
     on_grains.added_mass(g) = sphere_added_mass(rho_f, sphere_volume(grain.r));
+  }
+
+  /// Leaves a sphere of a clump to its contacts.
+  KOKKOS_FUNCTION void clear(int g) const {
+    on_grains.explicit_force(g) = Vec3{};
+    if (!on_grains.has_fluid) return;
+    on_grains.u_f(g) = on_grains.acceleration(g) = Vec3{};
+    on_grains.inv_fluid_mass(g) = on_grains.beta(g) = on_grains.added_mass(g) = 0;
   }
 };
 

@@ -55,7 +55,8 @@ struct SumKickDrift {
   Kokkos::View<const ContactSum*> of_bodies;
   Kokkos::View<Vec3*> contact_force, contact_torque;  // sums of the last grain step: [N], [N m]
   bool last = false;
-  Real min_slack = 0;  // slack of a grain at rest [m]
+  Real min_slack = 0;      // slack of a grain at rest [m]
+  bool of_clumps = false;  // the sums are those of spheres of clumps, which MoveClumps moves
 
   KOKKOS_FUNCTION void operator()(int chunk, Real& largest) const {
     if (!pairs.validity.holds()) {  // closes the next grain step, too
@@ -72,8 +73,12 @@ struct SumKickDrift {
     const auto is_near = [&](int g) { return !kOnHost || pairs.list.near_wall(g) != 0; };
     walls.add(begin, end, is_near, sums);
     if (of_bodies.extent(0) > 0) add_bodies(begin, end, sums);
-    if (last) keep(begin, end, sums);
+    if (last || of_clumps) keep(begin, end, sums);
     bool expired = false;
+    if (of_clumps) {
+      pairs.list.expired(chunk) = expired;
+      return;
+    }
     for (int g = begin; g < end; g += kTile) {
       const ContactSum* of_block = sums + place_in_chunk(g, begin);
       const bool is_expired = last ? motion.advance<Moves::out_of_last>(g, end, of_block, largest)

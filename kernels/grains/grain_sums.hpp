@@ -1,6 +1,7 @@
 // Sums over the grains for reports.
 #pragma once
 
+#include "kernels/grains/clump.hpp"
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/pair_list.hpp"
 #include "kernels/grains/sphere.hpp"
@@ -47,12 +48,12 @@ struct GrainVolumeFlow {
 /// In a window that follows its dune they are those within a strip around the edge, where its ends
 /// meet.
 struct CountLeaving {
-  Kokkos::View<const GrainKinematics*> grains;
+  PlaceOfGrain place;
   Real lx;               // [m]
   Real half_strip = 0;   // half the width of the strip [m]; 0: there is none
   Real window_edge = 0;  // its middle [m]; not a number: no edge yet
   KOKKOS_FORCEINLINE_FUNCTION bool leaves(int g) const {
-    const Real x = grains(g).x.x;
+    const Real x = place(g).x;
     if (half_strip == 0) return !(x >= 0 && x <= lx);
     const Real from_window_edge = x - window_edge;
     return Kokkos::abs(from_window_edge - lx * Kokkos::round(from_window_edge / lx)) <= half_strip;

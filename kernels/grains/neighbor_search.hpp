@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "kernels/grains/clump.hpp"
 #include "kernels/grains/law_table.hpp"
 #include "kernels/grains/pair_list.hpp"
 #include "kernels/grains/search_columns.hpp"
@@ -118,6 +119,7 @@ struct PairSearch {
   PeriodicBox box;
   int n_owned = 0;  // entries from here on are ghosts; two of them are no pair of this rank
 
+  KOKKOS_FORCEINLINE_FUNCTION int entry(int i) const { return i; }
   /// Calls action(j) for the near partners in column c, from entry `begin` on.
   template <class Action>
   KOKKOS_FORCEINLINE_FUNCTION void scan(int i, int c, int begin, const Action& action) const {
@@ -161,19 +163,44 @@ struct PairSearch {
   }
 };
 
+/// The same among spheres of clumps: two of one clump are no pair. A rank may have a sphere in a
+/// column of another one and a ghost in one of its own, so places in the order of the columns are
+/// other numbers than entries.
+struct ClumpPairSearch {
+  PairSearch places;                        // all of whose places count as owned
+  Kokkos::View<const int*> entry_of_place;  // empty: they are the same
+  Kokkos::View<const std::int64_t*> id;
+  int n_owned = 0;
+
+  KOKKOS_FORCEINLINE_FUNCTION int entry(int place) const {
+    return entry_of_place.extent(0) > 0 ? entry_of_place(place) : place;
+  }
+  template <class Action>
+  KOKKOS_FORCEINLINE_FUNCTION void for_each_partner(int place, const Action& action) const {
+    const int i = entry(place);
+    const std::int64_t clump = clump_of_id(id(i));
+    places.for_each_partner(place, [&](int other) {
+      const int j = entry(other);
+      if ((i < n_owned || j < n_owned) && clump_of_id(id(j)) != clump) action(j);
+    });
+  }
+};
+
 /// Number of partners that the counting pass notes down, so that few grains are searched twice.
 inline constexpr int kNoted = 8;
 using NotedPartners = Kokkos::View<int* [kNoted], Kokkos::MemoryUnmanaged>;
 
 /// Counts the partners of each grain, in its own chunk and in others; notes the first of them.
+template <class Search>
 struct CountPairs {
-  PairSearch search;
+  Search search;
   Chunks chunks;
   Kokkos::View<int*> inter, intra;
   NotedPartners noted;
-  KOKKOS_FUNCTION void operator()(int i) const {
+  KOKKOS_FUNCTION void operator()(int place) const {
+    const int i = search.entry(place);
     int n = 0, n_intra = 0;
-    search.for_each_partner(i, [&](int j) {
+    search.for_each_partner(place, [&](int j) {
       if (n < kNoted) noted(i, n) = j;
       ++n;
       n_intra += chunks.contain_both(i, j) ? 1 : 0;
@@ -185,8 +212,9 @@ struct CountPairs {
 
 /// Writes the pairs of each grain and their contact history. `old_entry` is the entry under which
 /// `history` has each owned grain.
+template <class Search>
 struct FillPairs {
-  PairSearch search;
+  Search search;
   NotedPartners noted;
   PairList list;
   ContactHistory history;
@@ -195,7 +223,8 @@ struct FillPairs {
   Kokkos::View<const std::uint8_t*> kind;  // kinds of the grains; empty: one kind
   bool has_history = false;
 
-  KOKKOS_FUNCTION void operator()(int i) const {
+  KOKKOS_FUNCTION void operator()(int place) const {
+    const int i = search.entry(place);
     int inter = list.first(i), intra = list.intra_first(i);
     const int n = list.first(i + 1) - inter + list.intra_first(i + 1) - intra;
     const auto add = [&](int j) {
@@ -206,7 +235,7 @@ struct FillPairs {
       remember(slot, i, j);
     };
     if (n > kNoted) {
-      search.for_each_partner(i, add);
+      search.for_each_partner(place, add);
     } else {
       for (int s = 0; s < n; ++s) add(noted(i, s));
     }

@@ -41,6 +41,7 @@ struct SearchColumns {
   Real height = 0;                                // scale of the y part of the key [m]
   bool periodic_x = false, periodic_z = false;
   std::uint32_t origin = 0;  // position on the Morton curve
+  int arms = 0;  // columns from the centre of a clump to its farthest sphere: 0 to kMostArms
 
   /// Number on the Morton curve of the column around a position.
   KOKKOS_FUNCTION std::uint32_t morton_code_of(const Vec3& x) const {
@@ -74,8 +75,8 @@ struct SearchColumns {
     const std::uint32_t code = column + origin;
     int ix = static_cast<int>(gather_bits(code >> 1)) + dx;
     int iz = static_cast<int>(gather_bits(code)) + dz;
-    if (periodic_x) ix = (ix + nx) % nx;
-    if (periodic_z) iz = (iz + nz) % nz;
+    if (periodic_x) ix = (ix + 2 * nx) % nx;
+    if (periodic_z) iz = (iz + 2 * nz) % nz;
     if (ix < 0 || ix >= nx || iz < 0 || iz >= nz) return false;
     result = code_of(ix, iz) - origin;
     return true;
@@ -178,17 +179,23 @@ struct GrainOwners {
   }
 };
 
-/// Destinations of a grain's copies: the other ranks that own a column in the rings around its own.
+/// Largest number of columns from the centre of a clump to its farthest sphere.
+inline constexpr int kMostArms = 4;
+
+/// Destinations of a grain's copies: the other ranks that own a column in the rings around its own,
+/// and with clumps those whose spheres may reach into these columns.
 struct GhostDestinations {
-  static constexpr int kMax = 8 + kOuterColumns;
+  static constexpr int kWidth = 2 * (2 + kMostArms) + 1;
+  static constexpr int kMax = kWidth * kWidth - 1;
   int n = 0;
   int rank[kMax];
 
   KOKKOS_FUNCTION GhostDestinations(const SearchColumns& columns, const GrainOwners& owners,
                                     const Vec3& x) {
     const std::uint32_t column = columns.column_of(x);
-    for (int dx = -columns.rings; dx <= columns.rings; ++dx) {
-      for (int dz = -columns.rings; dz <= columns.rings; ++dz) {
+    const int reach = columns.rings + columns.arms;
+    for (int dx = -reach; dx <= reach; ++dx) {
+      for (int dz = -reach; dz <= reach; ++dz) {
         std::uint32_t other = 0;
         if (!columns.neighbor(column, dx, dz, other)) continue;
         add(owners.of_code(other + columns.origin), owners.me);

@@ -65,10 +65,12 @@ CoupledStep::CoupledStep(const CoupledCase& config, SystemState& state)
 void CoupledStep::start(SystemState& state) {
   if (frozen_) {  // what does not move has no velocity, whatever its file says
     const auto kin = state.grains->kin;
+    const auto clump = state.grains->clump;
     Kokkos::parallel_for(
         "grains: freeze", state.grains->n, KOKKOS_LAMBDA(int g) {
           kin(g).u = Vec3{};
           kin(g).omega = Vec3{};
+          if (clump.extent(0) > 0) clump(g).u = clump(g).j = Vec3{};
         });
   }
   if (grains_) grains_->start(*state.grains);
@@ -97,6 +99,8 @@ void CoupledStep::gather(SystemState& state) {
   } else {
     still_.grains = grains.kin;
     still_.on_grains = grains.fluid;
+    still_.clump = grains.clump;
+    still_.id = grains.id;
     Kokkos::parallel_for("grains: still fluid", items(grains.n), still_);
   }
   if (!grains.fluid.has_fluid) return;

@@ -32,10 +32,10 @@ PackLayout layout_of(const ContactHistory& history) {
 Entries new_ranks(const GrainState& grains, const SearchColumns& columns,
                   const GrainOwners& owners) {
   const auto rank = uninitialized<Entries>("migration: ranks of grains", grains.n);
-  const auto kin = grains.kin;
+  const PlaceOfGrain place{grains.kin, grains.clump};
   Kokkos::parallel_for(
       "migration: ranks of grains", items(grains.n), KOKKOS_LAMBDA(int g) {
-        const int owner = owners.of_code(columns.morton_code_of(kin(g).x));
+        const int owner = owners.of_code(columns.morton_code_of(place(g)));
         rank(g) = owner == owners.me ? -1 : owner;
       });
   return rank;

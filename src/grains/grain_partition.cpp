@@ -16,11 +16,11 @@ namespace {
 Kokkos::View<std::uint64_t*> work_at_places(const GrainState& grains, const SearchColumns& columns,
                                             const Kokkos::View<const int*>& contacts) {
   const Kokkos::View<std::uint64_t*> work("partition: work", static_cast<std::size_t>(grains.n));
-  const auto kin = grains.kin;
+  const PlaceOfGrain place{grains.kin, grains.clump};
   Kokkos::parallel_for(
       "partition: work", items(grains.n), KOKKOS_LAMBDA(int g) {
         const int sides = contacts(g + 1) - contacts(g);
-        work(g) = (std::uint64_t{columns.morton_code_of(kin(g).x)} << 32) |
+        work(g) = (std::uint64_t{columns.morton_code_of(place(g))} << 32) |
                   static_cast<std::uint64_t>(2 + sides);
       });
   return work;

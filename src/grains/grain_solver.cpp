@@ -5,7 +5,9 @@
 #include <string>
 
 #include "kernels/grains/body_contact.hpp"
+#include "kernels/grains/clump_motion.hpp"
 #include "kernels/grains/grain_step.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/grains/kinds.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
@@ -60,7 +62,8 @@ GrainSolver::GrainSolver(const GrainsCase& config, GrainState& grains, const Gra
       many_kinds_(kinds.count() > 1),
       pair_laws_(laws_of_pairs(config.grains, kinds, config.film)),
       wall_laws_(laws_of_walls(config.grains, kinds, config.film)),
-      list_(config, grains.r_max, grains.ranks, largest_reach(pair_laws_, grains.r_max / 2)),
+      list_(config, grains.r_max, grains.ranks, largest_reach(pair_laws_, grains.r_max / 2),
+            longest_arm(config.grains) * grains.r_max),
       rolling_(make_rolling(config.grains, kinds)),
       on_bodies_(config, grains, !std::holds_alternative<NoRolling>(rolling_),
                  largest_reach(wall_laws_, grains.r_max)) {
@@ -77,6 +80,9 @@ GrainSolver::GrainSolver(const GrainsCase& config, GrainState& grains, const Gra
   list_.with_rolling = !std::holds_alternative<NoRolling>(rolling_);
   if (list_.with_rolling) grains.wall_torque = WallHistory("wall torque", n, n_histories);
   list_.with_force = config.keeps_forces;
+  if (!has_clumps(config.grains)) return;
+  grains.shapes = clump_shapes(config.grains);
+  if (grains.clump.size() == 0) grains.clump = Kokkos::View<ClumpMotion*>("clump", n);
 }
 
 void GrainSolver::add_walls(const GrainsCase& config, Real r_max) {
@@ -114,6 +120,7 @@ void GrainSolver::kick_and_drift(const GrainState& grains, int n, Real dt) {
   }
   // Let every chunk find its active pairs in the first grain step.
   Kokkos::deep_copy(Kokkos::DefaultExecutionSpace(), grains.list.expired, 1);
+  if (grains.clump.size() > 0) return move_clumps<Moves::into_first>(grains, 0, dt);
   Kokkos::parallel_reduce("grains: first kick and drift", items(tiles_of(grains.n)),
                           KickAndDrift{.motion = motion(grains, dt, 0),
                                        .n = grains.n,
@@ -170,9 +177,33 @@ void GrainSolver::launch(const GrainState& grains, const LawTable<Stiffness, man
                               .contact_force = grains.contact_force,
                               .contact_torque = grains.contact_torque,
                               .last = last,
-                              .min_slack = list_.min_slack()};
+                              .min_slack = list_.min_slack(),
+                              .of_clumps = grains.clump.size() > 0};
   kernels_.reduce("grains: intra-chunk pairs, sum, kick and drift", grains.list.chunks.count(), sum,
                   max_excess(s + 1));
+  if (!sum.of_clumps) return;
+  if (last) {
+    move_clumps<Moves::out_of_last>(grains, s + 1, dt);
+  } else {
+    move_clumps<Moves::between>(grains, s + 1, dt);
+  }
+}
+
+/// Moves the clumps at the end of grain step s - 1, or before the first one.
+template <Moves moves>
+void GrainSolver::move_clumps(const GrainState& grains, int s, Real dt) {
+  const MoveClumps<moves> move{.dt = dt,
+                               .elapsed = s > 0 ? (s - 0.5) * dt : 0,
+                               .box = list_.box(),
+                               .validity = {.excess = excess_, .before = std::max(s - 1, 0)},
+                               .clumps = {grains.shapes, grains.members, grains.clump, grains.kind},
+                               .grains = grains.kin,
+                               .contact_force = grains.contact_force,
+                               .contact_torque = grains.contact_torque,
+                               .x_reference = grains.x_reference,
+                               .fluid = grains.fluid,
+                               .list = grains.list};
+  kernels_.reduce("grains: move clumps", grains.members.n, move, max_excess(s));
 }
 
 void GrainSolver::rebuild(GrainState& grains, int s) {

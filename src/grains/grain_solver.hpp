@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "kernels/grains/grain_motion.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 #include "src/grains/grain_kinds.hpp"
 #include "src/grains/grains_on_bodies.hpp"
@@ -74,6 +75,8 @@ class GrainSolver {
   void launch(const GrainState& grains, const LawTable<Stiffness, many>& of_pairs,
               const LawTable<Stiffness, many>& of_walls, const Rolling& rolling, int s, bool last,
               Real dt);
+  template <Moves moves>
+  void move_clumps(const GrainState& grains, int s, Real dt);
   template <class Launch>
   void with_laws(const Launch& launch) const;
   Real strongest_on_body(Real r_max) const;

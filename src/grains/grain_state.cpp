@@ -41,15 +41,18 @@ void take_entries(const Entries& entries, const Kokkos::View<int*>& entry, int n
 
 /// Calls action(entries) for the parts of an array that are no wider than a Vec4.
 template <class T, class Action>
-void for_each_part(const Kokkos::View<T*>& array, const Action& action) {
+requires(sizeof(T) <= sizeof(Vec4)) void for_each_part(const Kokkos::View<T*>& array,
+                                                       const Action& action) {
   action(array);
 }
-template <class Action>
-void for_each_part(const Kokkos::View<GrainKinematics*>& kin, const Action& action) {
-  using Parts = Kokkos::View<Vec4* [3], Kokkos::LayoutRight, Kokkos::MemoryUnmanaged>;
-  static_assert(sizeof(GrainKinematics) == 3 * sizeof(Vec4));
-  const Parts parts(reinterpret_cast<Vec4*>(kin.data()), kin.extent(0));
-  for (int part = 0; part < 3; ++part) action(Kokkos::subview(parts, Kokkos::ALL(), part));
+template <class T, class Action>
+requires(sizeof(T) > sizeof(Vec4)) void for_each_part(const Kokkos::View<T*>& array,
+                                                      const Action& action) {
+  constexpr int n = sizeof(T) / sizeof(Vec4);
+  static_assert(sizeof(T) == n * sizeof(Vec4));
+  using Parts = Kokkos::View<Vec4* [n], Kokkos::LayoutRight, Kokkos::MemoryUnmanaged>;
+  const Parts parts(reinterpret_cast<Vec4*>(array.data()), array.extent(0));
+  for (int part = 0; part < n; ++part) action(Kokkos::subview(parts, Kokkos::ALL(), part));
 }
 template <class Action>
 void for_each_part(const Kokkos::View<Vec3**, Kokkos::LayoutLeft>& history, const Action& action) {
@@ -77,9 +80,13 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
   const BlockPartition shares{.n = n_all, .parts = rank_count(ranks)};
   const int first = shares.begin(rank_of(ranks)), n = shares.count(rank_of(ranks));
   GrainState s = make_grain_entries(n, ranks);
-  s.n_initial = n_all;
+  const bool has_clumps = !initial.clump.empty();
   s.last_id = initial.last_id;
-  for (const std::int64_t one : initial.id) s.last_id = std::max(s.last_id, one);
+  for (const std::int64_t one : initial.id) {
+    if (has_clumps && member_of_id(one) > 0) continue;
+    ++s.n_initial;
+    s.last_id = std::max(s.last_id, one);
+  }
 
   if (!initial.heap.empty()) add_heaps(s, initial.heap_names);
 
@@ -88,6 +95,8 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
   const bool has_kinds = !initial.kind.empty(), has_heaps = !initial.heap.empty();
   if (has_kinds) s.kind = Kokkos::View<std::uint8_t*>("kind", s.id.extent(0));
   const auto kind = mirror(s.kind), heap = mirror(s.heap);
+  if (has_clumps) s.clump = Kokkos::View<ClumpMotion*>("clump", s.id.extent(0));
+  const auto clump = mirror(s.clump);
   for (int g = 0; g < n; ++g) {
     const auto q = static_cast<std::size_t>(first) + static_cast<std::size_t>(g);
     const Real r = initial.diameter[q] / 2;
@@ -98,6 +107,7 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
                              .m = density[k] * sphere_volume(r),
                              .omega = initial.omega[q]};
     id(g) = initial.id[q];
+    if (has_clumps) clump(g) = initial.clump[q], kin(g).m = clump(g).m;
     if (has_kinds) kind(g) = initial.kind[q];
     if (has_heaps) heap(g) = initial.heap[q];
   }
@@ -114,6 +124,7 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
   Kokkos::deep_copy(s.id, id);
   Kokkos::deep_copy(s.kind, kind);
   Kokkos::deep_copy(s.heap, heap);
+  Kokkos::deep_copy(s.clump, clump);
   return s;
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kernels/grains/clump.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/pair_list.hpp"
 #include "src/grains/feed_state.hpp"
@@ -58,9 +59,9 @@ struct ExtraGrainArray {
 /// Value in GrainState::heap of a grain that came from no heap: it was fed.
 inline constexpr std::uint8_t kNoHeap = 255;
 
-/// Grains [0, n) of this rank. Entries are in spatial order, which a list rebuild changes; `id`
-/// never changes. Arrays may have room for more entries. Behind the entries of `kin` and `id` stand
-/// ghosts, copies of grains of other ranks.
+/// Grains [0, n) of this rank, spheres or spheres of clumps. Entries are in spatial order, which a
+/// list rebuild changes; `id` never changes. Arrays may have room for more entries. Behind the
+/// entries of `kin` and `id` stand ghosts, copies of grains of other ranks.
 struct GrainState {
   int n = 0, n_ghosts = 0;
   MPI_Comm ranks = MPI_COMM_SELF;                      // ranks that share the grains
@@ -70,6 +71,9 @@ struct GrainState {
   std::vector<std::string> kind_names;                 // by index, or empty
   Kokkos::View<std::uint8_t*> heap;                    // heap of origin; empty: one heap
   std::vector<std::string> heap_names;                 // by index, or empty
+  Kokkos::View<ClumpMotion*> clump;                    // of each entry; empty: spheres alone
+  ClumpMembers members;                                // of the clumps, since the last rebuild
+  ClumpShapes shapes;                                  // of the kinds, where there are clumps
   Kokkos::View<Vec3*> contact_force, contact_torque;   // at the current positions [N], [N m]
   Kokkos::View<Vec3*> x_reference;                     // positions at the last list rebuild [m]
   FluidOnGrains fluid;                                 // constant over one fluid step
@@ -92,6 +96,16 @@ struct GrainState {
   // Place where the ends of a window that follows its dune meet [m]; not a number: not placed yet.
   Real window_edge = Kokkos::Experimental::quiet_NaN_v<Real>;
 };
+
+/// Number of grains of this rank: a clump counts as one.
+inline int grain_count(const GrainState& grains) {
+  return grains.clump.size() > 0 ? grains.members.n : grains.n;
+}
+
+/// Number of the grain of an entry, from its id.
+inline std::int64_t grain_number(const GrainState& grains, std::int64_t id) {
+  return grains.clump.size() > 0 ? clump_of_id(id) : id;
+}
 
 /// Largest number that a grain has or had.
 inline std::int64_t last_id(const GrainState& grains) {

@@ -9,6 +9,7 @@
 
 #include "kernels/bodies/body.hpp"
 #include "kernels/grains/law_table.hpp"
+#include "src/grains/clump_shape.hpp"
 
 namespace barchan {
 
@@ -19,6 +20,8 @@ enum class GrainBoundaryX { exit, periodic, wall, follow };
 enum class GrainBoundaryZ { periodic, wall };
 enum class GrainFloor { smooth, glued };
 enum class FeedAmount { given, as_lost };
+enum class GrainShape { sphere, clump };
+enum class NamedClump { dimer, tetrahedron, cube, sand };
 
 /// [grains] material; [grains.wall] overrides what it names.
 struct Material {
@@ -30,10 +33,19 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// Shape of the grains of a kind: spheres, or rigid clumps of spheres.
+struct ShapeConfig {
+  GrainShape shape = GrainShape::sphere;
+  std::vector<ClumpSphere> spheres = {};  // of a clump, in any unit of length,
+  std::optional<NamedClump> clump = {};   // or its name
+  bool operator==(const ShapeConfig&) const = default;
+};
+
 struct SizeClass {
   double diameter = 0;  // [m]
   std::int64_t count = 0;
-  int kind = 0;  // its entry of [[grains.kind]]
+  int kind = 0;     // its entry of [[grains.kind]]
+  double wide = 1;  // diameter of the sphere around a grain, over `diameter`
   bool operator==(const SizeClass&) const = default;
 };
 
@@ -50,6 +62,7 @@ struct KindConfig {
   std::string name;              // required
   double density = 2500;         // [kg/m^3]; this and what follows default to that of [grains]
   Material material;             // keys directly in [[grains.kind]]
+  ShapeConfig shape = {};        // likewise
   std::vector<SizeClass> sizes;  // for `pour`
   bool operator==(const KindConfig&) const = default;
 };
@@ -75,9 +88,10 @@ struct FeedConfig {
 
 /// [grains]
 struct GrainConfig {
-  double density = 2500;  // [kg/m^3]
-  Material material;      // keys directly in [grains]
-  Material wall;          // [grains.wall], defaults to `material`
+  double density = 2500;   // [kg/m^3]
+  Material material;       // keys directly in [grains]
+  ShapeConfig shape = {};  // likewise
+  Material wall;           // [grains.wall], defaults to `material`
   CoulombLimit coulomb_limit = CoulombLimit::total;
   RollingModel rolling_model = RollingModel::of<Epsd2>();
   double rolling_theta_m = 0.1;  // [rad], angle of incipient rolling of the theta_m model (A13)

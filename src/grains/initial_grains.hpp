@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/math/vec3.hpp"
+#include "kernels/grains/clump.hpp"
 
 namespace barchan {
 
@@ -18,6 +18,10 @@ struct InitialGrains {
   std::vector<Vec3> omega;       // angular velocity [rad/s]
   // Index of each grain's kind and heap, if there are several; else empty.
   std::vector<std::uint8_t> kind = {}, heap = {};
+  // Orientation of each grain, from a file that has it; motion of the clump of each sphere, where
+  // there are clumps (as_members); else empty.
+  std::vector<Quaternion> q = {};
+  std::vector<ClumpMotion> clump = {};
   std::vector<std::string> kind_names = {};  // from a file that has kinds
   std::vector<std::string> heap_names = {};  // may be empty: a table has none
   std::int64_t last_id = 0;  // largest id of these grains and of those that have left
@@ -41,7 +45,7 @@ struct InitialGrains {
       values.resize(n);
     };
     keep_of(id), keep_of(diameter), keep_of(x), keep_of(u), keep_of(omega);
-    keep_of(kind), keep_of(heap);
+    keep_of(kind), keep_of(heap), keep_of(q), keep_of(clump);
   }
 };
 

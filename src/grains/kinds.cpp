@@ -10,8 +10,11 @@ namespace barchan {
 
 std::vector<KindConfig> all_kinds(const GrainConfig& grains) {
   if (!grains.kinds.empty()) return grains.kinds;
-  return {
-      {.name = {}, .density = grains.density, .material = grains.material, .sizes = grains.sizes}};
+  return {{.name = {},
+           .density = grains.density,
+           .material = grains.material,
+           .shape = grains.shape,
+           .sizes = grains.sizes}};
 }
 
 std::vector<SizeClass> poured_sizes(const GrainConfig& grains) {

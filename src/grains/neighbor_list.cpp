@@ -10,8 +10,10 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/stopwatch.hpp"
+#include "src/grains/clump_members.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/grains/list_memory.hpp"
+#include "src/grains/pair_slots.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/parallel/sort.hpp"
@@ -33,7 +35,8 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
 
 }  // namespace
 
-NeighborList::NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks, Real reach)
+NeighborList::NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks, Real reach,
+                           Real longest_arm)
     : skins_(config, r_max, reach),
       lx_(config.size[0]),
       leaves_x_(grains_leave(config.grains)),
@@ -50,6 +53,7 @@ NeighborList::NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks,
   columns_.inverse_width_x = columns_.nx / lx_;
   columns_.inverse_width_z = columns_.nz / lz;
   columns_.height = config.size[1];
+  columns_.arms = rank_count(ranks) > 1 ? columns_of_arm(longest_arm, columns_) : 0;
   box_.lx = columns_.periodic_x ? lx_ : 0;
   box_.lz = columns_.periodic_z ? lz : 0;
   if (rank_count(ranks) > 1) ranks_ = std::make_unique<Ranks>(ranks);
@@ -73,6 +77,7 @@ void NeighborList::reserve_memory(int n) {
 
 void NeighborList::wrap(const GrainState& grains) const {
   const auto kin = grains.kin;
+  const auto clump = grains.clump;
   const PeriodicBox box = box_;
   int bad = grains.n;
   Kokkos::parallel_reduce(
@@ -80,6 +85,7 @@ void NeighborList::wrap(const GrainState& grains) const {
       KOKKOS_LAMBDA(int g, int& first) {
         Vec3& x = kin(g).x;
         x = box.wrap(x);
+        if (clump.extent(0) > 0) clump(g).x = box.wrap(clump(g).x);
         if (!Kokkos::isfinite(x.x + x.y + x.z) && g < first) first = g;
       },
       Kokkos::Min<int>(bad));
@@ -92,9 +98,9 @@ void NeighborList::wrap(const GrainState& grains) const {
       "; it was near ({:.6g}, {:.6g}, {:.6g}) m: time.grain_step may "
       "be too long, or grains overlapped at the start",
       last.x, last.y, last.z);
-  throw StateError(
-      fmt::format("the position of grain {} is not finite{}", id, rebuilds_ > 0 ? place : ""),
-      ranks_ == nullptr);
+  throw StateError(fmt::format("the position of grain {} is not finite{}", grain_number(grains, id),
+                               rebuilds_ > 0 ? place : ""),
+                   ranks_ == nullptr);
 }
 
 /// Collects the contact history. New grains get entries in it, without contacts.
@@ -149,29 +155,27 @@ void NeighborList::sort(GrainState& grains, bool drop) {
         dropped += outside ? 1 : 0;
       },
       n_dropped);
+  grains.n_left += grains.clump.size() > 0 && n_dropped > 0 ? clumps_in(grains, key) : n_dropped;
   sort_by_key(key, entry);
   permute(grains, entry, n - n_dropped, grain_memory_);
-  grains.n_left += n_dropped;
 }
 
-Windows NeighborList::find_windows(const GrainState& grains, int n) {
-  const NumberColumns find{.columns = columns_, .grains = grains.kin, .occupied = occupied_};
+Windows NeighborList::find_windows(const Kokkos::View<GrainKinematics*>& grains, int n) {
+  const NumberColumns find{.columns = columns_, .grains = grains, .occupied = occupied_};
   Kokkos::parallel_scan("neighbors: occupied columns", n, find, occupied_.n);
   reserve(occupied_.id, "occupied columns", occupied_.n);
   reserve(occupied_.start, "column starts", occupied_.n + 1);
-  Kokkos::parallel_for(
-      "neighbors: column starts", n,
-      StartColumns{.columns = columns_, .grains = grains.kin, .occupied = occupied_});
+  Kokkos::parallel_for("neighbors: column starts", n,
+                       StartColumns{.columns = columns_, .grains = grains, .occupied = occupied_});
   Kokkos::deep_copy(Kokkos::subview(occupied_.start, occupied_.n), n);
   reserve(occupied_.forward, "forward columns", occupied_.n);
   reserve(occupied_.widest, "widest of columns", occupied_.n);
-  Kokkos::parallel_for(
-      "neighbors: link columns", occupied_.n,
-      LinkColumns{.columns = columns_, .grains = grains.kin, .occupied = occupied_});
+  Kokkos::parallel_for("neighbors: link columns", occupied_.n,
+                       LinkColumns{.columns = columns_, .grains = grains, .occupied = occupied_});
   static_assert(kForwardColumns * sizeof(int) == 2 * sizeof(std::uint64_t));
   const Windows window = used_as<Windows>(key_memory_, n);
   Kokkos::parallel_for("neighbors: windows", occupied_.n,
-                       FindWindows{.grains = grains.kin, .occupied = occupied_, .window = window});
+                       FindWindows{.grains = grains, .occupied = occupied_, .window = window});
   return window;
 }
 
@@ -192,23 +196,39 @@ void NeighborList::reserve_pairs(PairList& list) const {
   if (with_force) reserve(list.force, "pairs: force", list.n_pairs);
 }
 
-void NeighborList::register_others(const PairList& list, int n) {
-  Kokkos::deep_copy(list.incoming_first, 0);
-  Kokkos::parallel_for(
-      "neighbors: count incoming", list.n_inter,
-      KOKKOS_LAMBDA(int slot) { Kokkos::atomic_inc(&list.incoming_first(list.j(slot))); });
-  counts_to_offsets(list.incoming_first, n);
-  const auto cursor = used_as<Kokkos::View<int*>>(key_memory_, n);
-  Kokkos::deep_copy(cursor, Kokkos::subview(list.incoming_first, std::pair<int, int>(0, n)));
-  Kokkos::parallel_for("neighbors: fill incoming", list.n_inter,
-                       FillIncoming{.list = list, .cursor = cursor});
-  Kokkos::parallel_for("neighbors: sort incoming", n, SortIncoming{.list = list});
+/// Counts the pairs that a search finds, makes room for them and writes them.
+template <class Search>
+void NeighborList::find_pairs(GrainState& grains, const Search& search) {
+  const int n = grains.n + grains.n_ghosts;
+  PairList& list = grains.list;
+  const auto noted = used_as<NotedPartners>(grain_memory_, n);
+  Kokkos::parallel_for("neighbors: count", n,
+                       CountPairs<Search>{.search = search,
+                                          .chunks = list.chunks,
+                                          .inter = list.first,
+                                          .intra = list.intra_first,
+                                          .noted = noted});
+  list.n_inter = counts_to_offsets(list.first, n);
+  list.n_pairs = counts_to_offsets(list.intra_first, n, list.n_inter);
+  reserve_pairs(list);
+  Kokkos::parallel_for("neighbors: fill", n,
+                       FillPairs<Search>{.search = search,
+                                         .noted = noted,
+                                         .list = list,
+                                         .history = history_,
+                                         .old_entry = entry_,
+                                         .id = grains.id,
+                                         .kind = grains.kind,
+                                         .has_history = has_history_});
 }
 
 void NeighborList::search(GrainState& grains) {
   const int n = grains.n + grains.n_ghosts;
   reserve_memory(n);
-  const Windows window = find_windows(grains, n);
+  const bool has_clumps = grains.clump.size() > 0;
+  const OrderOfPlaces order = has_clumps && ranks_ ? order_of_places(grains, columns_)
+                                                   : OrderOfPlaces{.grains = grains.kin};
+  const Windows window = find_windows(order.grains, n);
   PairList& list = grains.list;
   list.chunks = make_chunks(grains.n);
   reserve(list.first, "pairs: first", n + 1);
@@ -216,33 +236,22 @@ void NeighborList::search(GrainState& grains) {
   reserve(list.incoming_first, "pairs: incoming first", n + 1);
   reserve(list.near_wall, "near a wall", grains.n);
   static_assert(kNoted * sizeof(int) == sizeof(Vec4));
-  const auto noted = used_as<NotedPartners>(grain_memory_, n);
   const PairSearch pair_search{.columns = columns_,
-                               .grains = grains.kin,
+                               .grains = order.grains,
                                .occupied = occupied_,
                                .window = window,
                                .box = box_,
-                               .n_owned = grains.n};
-  Kokkos::parallel_for("neighbors: count", n,
-                       CountPairs{.search = pair_search,
-                                  .chunks = list.chunks,
-                                  .inter = list.first,
-                                  .intra = list.intra_first,
-                                  .noted = noted});
-  list.n_inter = counts_to_offsets(list.first, n);
-  list.n_pairs = counts_to_offsets(list.intra_first, n, list.n_inter);
-  reserve_pairs(list);
-  Kokkos::parallel_for("neighbors: fill", n,
-                       FillPairs{.search = pair_search,
-                                 .noted = noted,
-                                 .list = list,
-                                 .history = history_,
-                                 .old_entry = entry_,
-                                 .id = grains.id,
-                                 .kind = grains.kind,
-                                 .has_history = has_history_});
+                               .n_owned = has_clumps ? n : grains.n};
+  if (has_clumps) {
+    find_pairs(grains, ClumpPairSearch{.places = pair_search,
+                                       .entry_of_place = order.entry,
+                                       .id = grains.id,
+                                       .n_owned = grains.n});
+  } else {
+    find_pairs(grains, pair_search);
+  }
   has_history_ = false;
-  register_others(list, n);
+  register_second_grains(list, n, used_as<Kokkos::View<int*>>(key_memory_, n));
 }
 
 void NeighborList::rebuild(GrainState& grains, bool drop) {
@@ -262,6 +271,7 @@ void NeighborList::rebuild(GrainState& grains, bool drop) {
 /// Ends a rebuild: finds ghosts and pairs; from here on the list holds.
 void NeighborList::find_ghosts_and_pairs(GrainState& grains) {
   if (ranks_) ranks_->ghosts.find(grains, columns_, ranks_->partition.owners());
+  if (grains.clump.size() > 0) grains.members = members_of(grains);
   search(grains);
   ++rebuilds_;
 }

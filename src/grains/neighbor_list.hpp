@@ -33,9 +33,10 @@ struct NewGrain {
 /// it, with the same bits: which grain is the first depends on the places of the two columns alone.
 class NeighborList {
  public:
-  /// Makes an empty list. `reach`: of the contact law between two surfaces [m].
-  NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF,
-               Real reach = 0);
+  /// Makes an empty list. `reach`: of the contact law between two surfaces; `longest_arm`: from the
+  /// centre of a clump to that of its farthest sphere [m].
+  NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF, Real reach = 0,
+               Real longest_arm = 0);
 
   /// Sorts, searches, carries the history over. `drop` removes grains that leave.
   void rebuild(GrainState& grains, bool drop);
@@ -46,7 +47,7 @@ class NeighborList {
   void bring_in(GrainState& grains, const std::vector<NewGrain>& come);
   /// Condition for the grains that leave now.
   CountLeaving leaving(const GrainState& grains) const {
-    return {grains.kin, lx_, half_strip_, grains.window_edge};
+    return {{grains.kin, grains.clump}, lx_, half_strip_, grains.window_edge};
   }
   /// Searches again from x_reference in the present order: gives the list of the last rebuild, with
   /// its contact history. If the skin has changed (grains.skin), it is a new list. All ranks call
@@ -78,16 +79,17 @@ class NeighborList {
 
   // Parts of a rebuild; public only because nvcc takes no device lambda from a private function.
   void sort(GrainState& grains, bool drop);
-  void register_others(const PairList& list, int n);
   void wrap(const GrainState& grains) const;
 
  private:
   void collect_history(const GrainState& grains);
   void append_new(GrainState& grains);
   void redistribute(GrainState& grains);
-  Windows find_windows(const GrainState& grains, int n);
+  Windows find_windows(const Kokkos::View<GrainKinematics*>& grains, int n);
   void reserve_pairs(PairList& list) const;
   void search(GrainState& grains);
+  template <class Search>
+  void find_pairs(GrainState& grains, const Search& search);
   void find_ghosts_and_pairs(GrainState& grains);
   void take_memory(const GrainState& grains);
   void reserve_memory(int n);

@@ -1,0 +1,121 @@
+#include "src/grains/clump_members.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "src/base/errors.hpp"
+#include "src/grains/list_memory.hpp"
+#include "src/parallel/communicator.hpp"
+#include "src/parallel/launch.hpp"
+#include "src/parallel/sort.hpp"
+
+namespace barchan {
+
+using Entries = Kokkos::View<int*>;
+using Keys = Kokkos::View<std::uint64_t*>;
+
+ClumpMembers members_of(const GrainState& grains) {
+  const int n = grains.n;
+  const auto key = uninitialized<Keys>("clumps: keys", n);
+  const auto entry = uninitialized<Entries>("clumps: entries", n);
+  const auto id = grains.id;
+  Kokkos::parallel_for(
+      "clumps: keys", items(n), KOKKOS_LAMBDA(int g) {
+        key(g) = (static_cast<std::uint64_t>(clump_of_id(id(g))) << 16) |
+                 static_cast<std::uint64_t>(member_of_id(id(g)));
+        entry(g) = g;
+      });
+  sort_by_key(key, entry);
+  const auto place = uninitialized<Entries>("clumps: place of entry", n);
+  Kokkos::parallel_for(
+      "clumps: places", items(n), KOKKOS_LAMBDA(int p) { place(entry(p)) = p; });
+  // Spheres stand one after the other, as many as the kind of the first one has.
+  const ClumpShapes shapes = grains.shapes;
+  const auto kind = grains.kind;
+  int n_in_clumps = 0;
+  Kokkos::parallel_reduce(
+      "clumps: whole ones", items(n),
+      KOKKOS_LAMBDA(int p, int& sum) {
+        const int first = entry(p);
+        if (member_of_id(id(first)) != 0) return;
+        const int count = shapes.count(kind.extent(0) > 0 ? kind(first) : 0);
+        bool whole = p + count <= n;
+        for (int k = 0; whole && k < count; ++k)
+          whole = id(entry(p + k)) == id_of_member(id(first), k);
+        sum += whole ? count : 0;
+      },
+      n_in_clumps);
+  if (n_in_clumps != n) {
+    throw StateError(fmt::format("{} of {} spheres of clumps are not with the rest of their clump",
+                                 n - n_in_clumps, n),
+                     rank_count(grains.ranks) == 1);
+  }
+  const auto first = uninitialized<Entries>("clumps: first", n);
+  ClumpMembers members{.first = first, .entry = entry};
+  Kokkos::parallel_scan(
+      "clumps: numbers", items(n),
+      KOKKOS_LAMBDA(int g, int& count, bool final) {
+        if (member_of_id(id(g)) != 0) return;
+        if (final) first(count) = place(g);
+        ++count;
+      },
+      members.n);
+  return members;
+}
+
+int clumps_in(const GrainState& grains, const Kokkos::View<const std::uint64_t*>& key) {
+  const auto id = grains.id;
+  int clumps = 0;
+  Kokkos::parallel_reduce(
+      "clumps: count those that leave", items(grains.n),
+      KOKKOS_LAMBDA(int g, int& count) {
+        count += key(g) == kDroppedKey && member_of_id(id(g)) == 0 ? 1 : 0;
+      },
+      clumps);
+  return clumps;
+}
+
+OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& columns) {
+  const int n = grains.n + grains.n_ghosts;
+  const auto key = uninitialized<Keys>("clumps: keys of columns", n);
+  const auto entry = uninitialized<Entries>("clumps: entries of places", n);
+  const auto kin = grains.kin;
+  const auto id = grains.id;
+  Kokkos::parallel_for(
+      "clumps: keys of columns", items(n), KOKKOS_LAMBDA(int g) {
+        key(g) = columns.key_of(kin(g).x);
+        entry(g) = g;
+      });
+  sort_by_key(key, entry);
+  Kokkos::parallel_for(
+      "clumps: equal keys by ids", items(n), KOKKOS_LAMBDA(int p) {
+        if (p > 0 && key(p - 1) == key(p)) return;  // the first of some does it for all
+        for (int a = p + 1; a < n && key(a) == key(p); ++a) {
+          const int one = entry(a);
+          int b = a;
+          for (; b > p && id(entry(b - 1)) > id(one); --b) entry(b) = entry(b - 1);
+          entry(b) = one;
+        }
+      });
+  const auto ordered = uninitialized<Kokkos::View<GrainKinematics*>>("clumps: in order", n);
+  Kokkos::parallel_for(
+      "clumps: in order", items(n), KOKKOS_LAMBDA(int p) { ordered(p) = kin(entry(p)); });
+  return {ordered, entry};
+}
+
+int columns_of_arm(Real arm, const SearchColumns& columns) {
+  const Real narrowest = 1 / std::max(columns.inverse_width_x, columns.inverse_width_z);
+  const Real crossed = std::ceil(arm / narrowest);
+  if (crossed > kMostArms) {
+    throw std::runtime_error(
+        fmt::format("a clump reaches {:.3g} m from its centre, too far for several ranks: at most "
+                    "{:.3g} m with spheres this small",
+                    arm, kMostArms * narrowest));
+  }
+  return static_cast<int>(crossed);
+}
+
+}  // namespace barchan

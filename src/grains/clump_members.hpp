@@ -1,0 +1,28 @@
+// Clumps in the entries of a rank: which entries belong together, and the order of spheres whose
+// columns belong to other ranks.
+#pragma once
+
+#include "kernels/grains/search_columns.hpp"
+#include "src/grains/grain_state.hpp"
+
+namespace barchan {
+
+/// Finds the entries of each clump of this rank from their ids. Throws StateError if one has not
+/// all of its spheres here.
+ClumpMembers members_of(const GrainState& grains);
+
+/// Number of clumps among the entries whose keys say that they leave.
+int clumps_in(const GrainState& grains, const Kokkos::View<const std::uint64_t*>& key);
+
+/// Owned entries and ghosts in the order of their columns and heights.
+struct OrderOfPlaces {
+  Kokkos::View<GrainKinematics*> grains;
+  Kokkos::View<int*> entry = {};  // of each place; empty: they are the same
+};
+/// Order that all ranks agree on: equal keys come in the order of the ids.
+OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& columns);
+
+/// Columns that an arm [m] may cross. Throws std::runtime_error beyond kMostArms.
+int columns_of_arm(Real arm, const SearchColumns& columns);
+
+}  // namespace barchan

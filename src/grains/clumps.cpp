@@ -1,0 +1,189 @@
+#include "src/grains/clumps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "kernels/grains/clump_motion.hpp"
+#include "kernels/grains/sphere.hpp"
+#include "kernels/math/random.hpp"
+#include "src/base/enum_names.hpp"
+#include "src/grains/grain_kinds.hpp"
+#include "src/grains/kinds.hpp"
+#include "src/grains/named_clumps.hpp"
+#include "src/parallel/launch.hpp"
+#include "src/parallel/mirror.hpp"
+
+namespace barchan {
+
+namespace {
+
+constexpr std::uint64_t kPurpose = 74;  // of the random numbers of orientations
+
+/// Shape of a kind, of volume pi/6. Those of all kinds of a program are few: they are kept.
+const ClumpShape& shape_of(const ShapeConfig& shape) {
+  static const ClumpShape sphere{
+      .spheres = {{{}, 0.5}}, .shares = {1}, .inertia = {0.1, 0.1, 0.1}, .bounding_radius = 0.5};
+  static std::vector<std::pair<std::vector<ClumpSphere>, ClumpShape>> known;
+  if (!is_clump(shape)) return sphere;
+  const std::vector<ClumpSphere> spheres = spheres_of(shape);
+  for (const auto& [given, made] : known)
+    if (given == spheres) return made;
+  known.reserve(64);  // references stay
+  return known.emplace_back(spheres, clump_shape(spheres)).second;
+}
+
+/// Random rotation, all of them alike: Shoemake, Graphics Gems III, 124 (1992).
+Quaternion random_orientation(std::uint64_t seed, std::int64_t number) {
+  const auto count = 3 * static_cast<std::uint64_t>(number);
+  const auto uniform = [&](std::uint64_t n) { return uniform_number(seed, kPurpose, count + n); };
+  const Real u = uniform(0), a = 2 * std::numbers::pi_v<Real> * uniform(1),
+             b = 2 * std::numbers::pi_v<Real> * uniform(2);
+  const Real r = std::sqrt(1 - u), s = std::sqrt(u);
+  return {s * std::cos(b), r * std::sin(a), r * std::cos(a), s * std::sin(b)};
+}
+
+/// Takes the entries of the first spheres of clumps.
+template <class View>
+void take_of_heads(const ClumpsOfGrains& clumps, const View& from, const View& to) {
+  if (from.size() == 0) return;
+  Kokkos::parallel_for(
+      "clumps: entries of heads", items(clumps.members.n),
+      KOKKOS_LAMBDA(int c) { to(c) = from(clumps.head(c)); });
+}
+
+}  // namespace
+
+std::vector<ClumpSphere> spheres_of(const ShapeConfig& shape) {
+  if (!shape.spheres.empty() || !shape.clump) return shape.spheres;
+  return named_clump(kEnumNames<NamedClump>[static_cast<std::size_t>(*shape.clump)]);
+}
+
+bool is_clump(const ShapeConfig& shape) {
+  return shape.shape == GrainShape::clump && spheres_of(shape).size() > 1;
+}
+
+bool has_clumps(const GrainConfig& grains) {
+  return std::ranges::any_of(all_kinds(grains),
+                             [](const KindConfig& kind) { return is_clump(kind.shape); });
+}
+
+double width_of(const ShapeConfig& shape) { return 2 * shape_of(shape).bounding_radius; }
+
+double longest_arm(const GrainConfig& grains) {
+  double longest = 0;
+  for (const KindConfig& kind : all_kinds(grains)) {
+    const auto& spheres = shape_of(kind.shape).spheres;
+    const Real largest = std::ranges::max(spheres, {}, &ClumpSphere::radius).radius;
+    for (const ClumpSphere& sphere : spheres)
+      longest = std::max<double>(longest, norm(sphere.centre) / largest);
+  }
+  return longest;
+}
+
+ClumpShapes clump_shapes(const GrainConfig& grains) {
+  ClumpShapes shapes;
+  std::vector<Vec4> spheres;
+  int k = 0;
+  for (const KindConfig& kind : all_kinds(grains)) {
+    const ClumpShape& shape = shape_of(kind.shape);
+    shapes.inertia[k] = shape.inertia;
+    for (const auto& [c, radius] : shape.spheres) spheres.emplace_back(c.x, c.y, c.z, radius);
+    shapes.first[++k] = static_cast<int>(spheres.size());
+  }
+  const Kokkos::View<Vec4*> sphere("spheres of clumps", spheres.size());
+  const auto host = mirror(sphere);
+  std::copy(spheres.begin(), spheres.end(), host.data());
+  Kokkos::deep_copy(sphere, host);
+  shapes.sphere = sphere;
+  return shapes;
+}
+
+InitialGrains as_spheres(const InitialGrains& grains, const GrainConfig& config,
+                         std::uint64_t seed) {
+  if (!has_clumps(config)) return grains;
+  const std::vector<KindConfig> kinds = all_kinds(config);
+  const std::vector<Real> densities = densities_of(config);
+  InitialGrains spheres;
+  spheres.kind_names = grains.kind_names, spheres.heap_names = grains.heap_names;
+  spheres.last_id = grains.last_id;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    const auto k = static_cast<std::size_t>(grains.kind_of(g));
+    const ClumpShape& shape = shape_of(kinds[k].shape);
+    const Real d = grains.diameter[g], m = densities[k] * sphere_volume(d / 2);
+    const Quaternion q = grains.q.empty() ? random_orientation(seed, grains.id[g]) : grains.q[g];
+    const ClumpMotion motion{
+        .x = grains.x[g],
+        .d = d,
+        .q = q,
+        .u = grains.u[g],
+        .m = m,
+        .j = angular_momentum(q, (m * d * d) * shape.inertia, grains.omega[g])};
+    int member = 0;
+    for (const auto& [centre, radius] : shape.spheres) {
+      const Vec3 arm = d * rotate(q, centre);
+      spheres.add(id_of_member(grains.id[g], member++), 2 * radius * d, grains.x[g] + arm,
+                  grains.u[g] + cross(grains.omega[g], arm), grains.omega[g]);
+      spheres.clump.push_back(motion);
+      if (!grains.kind.empty()) spheres.kind.push_back(grains.kind[g]);
+      if (!grains.heap.empty()) spheres.heap.push_back(grains.heap[g]);
+    }
+  }
+  return spheres;
+}
+
+GrainState whole_grains(const GrainState& grains) {
+  if (grains.clump.size() == 0) return grains;
+  const int n = grains.members.n;
+  const ClumpsOfGrains clumps{grains.shapes, grains.members, grains.clump, grains.kind};
+  GrainState whole = make_grain_entries(n, grains.ranks);
+  const auto size = whole.id.extent(0);
+  if (grains.kind.size() > 0) whole.kind = Kokkos::View<std::uint8_t*>("kind", size);
+  if (grains.heap.size() > 0) whole.heap = Kokkos::View<std::uint8_t*>("heap", size);
+  whole.clump = Kokkos::View<ClumpMotion*>("clump", size);
+  whole.kind_names = grains.kind_names, whole.heap_names = grains.heap_names;
+  whole.fluid.has_fluid = grains.fluid.has_fluid;
+  whole.r_max = grains.r_max, whole.r_min = grains.r_min;
+  whole.sauter_diameter = grains.sauter_diameter;
+  whole.n_initial = grains.n_initial, whole.last_id = grains.last_id;
+  whole.n_left = grains.n_left, whole.feed = grains.feed, whole.window_edge = grains.window_edge;
+  const auto kin = whole.kin;
+  const auto clump = whole.clump;
+  const auto force = whole.contact_force, torque = whole.contact_torque;
+  const auto force_of = grains.contact_force, torque_of = grains.contact_torque;
+  Kokkos::parallel_for(
+      "clumps: whole grains", items(n), KOKKOS_LAMBDA(int c) {
+        const int e = clumps.head(c), k = clumps.kind_of(e);
+        const ClumpMotion motion = clumps.motion(e);
+        const ClumpForce sum = clumps.sum(c, motion, k, force_of, torque_of);
+        clump(c) = motion;
+        kin(c) = GrainKinematics{.x = motion.x,
+                                 .r = motion.d / 2,
+                                 .u = motion.u,
+                                 .m = motion.m,
+                                 .omega = clumps.spin(motion, k)};
+        force(c) = sum.force, torque(c) = sum.torque;
+      });
+  take_of_heads(clumps, grains.id, whole.id);
+  take_of_heads(clumps, grains.kind, whole.kind);
+  take_of_heads(clumps, grains.heap, whole.heap);
+  return whole;
+}
+
+Kokkos::View<const Vec3*> sum_over_spheres(const GrainState& grains,
+                                           const Kokkos::View<const Vec3*>& of_spheres) {
+  if (grains.clump.size() == 0 || of_spheres.size() == 0) return of_spheres;
+  const ClumpsOfGrains clumps{grains.shapes, grains.members, grains.clump, grains.kind};
+  const Kokkos::View<Vec3*> sums("sum over spheres",
+                                 static_cast<std::size_t>(std::max(grains.members.n, 1)));
+  Kokkos::parallel_for(
+      "clumps: sum over spheres", items(grains.members.n), KOKKOS_LAMBDA(int c) {
+        const int kind = clumps.kind_of(clumps.head(c));
+        for (int k = 0; k < clumps.shapes.count(kind); ++k)
+          sums(c) += of_spheres(clumps.members.entry(clumps.members.first(c) + k));
+      });
+  return sums;
+}
+
+}  // namespace barchan

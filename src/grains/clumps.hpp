@@ -1,0 +1,41 @@
+// Grains that are clumps of spheres: their shapes, and the way from grains to spheres and back.
+#pragma once
+
+#include <vector>
+
+#include "src/grains/clump_shape.hpp"
+#include "src/grains/grain_state.hpp"
+#include "src/grains/grains_case.hpp"
+#include "src/grains/initial_grains.hpp"
+
+namespace barchan {
+
+/// Spheres of the clump that a case names or gives.
+std::vector<ClumpSphere> spheres_of(const ShapeConfig& shape);
+/// Tells if grains of this shape are clumps; a clump of one sphere is a sphere.
+bool is_clump(const ShapeConfig& shape);
+bool has_clumps(const GrainConfig& grains);
+
+/// Diameter of the sphere around the grains of a kind, over that of the sphere of their volume.
+double width_of(const ShapeConfig& shape);
+/// Longest distance from the centre of a grain to that of one of its spheres, over the radius of
+/// the largest sphere of its kind.
+double longest_arm(const GrainConfig& grains);
+
+/// Shapes of all kinds for kernels.
+ClumpShapes clump_shapes(const GrainConfig& grains);
+
+/// Spheres of the grains of a case with clumps. Clumps that come without an orientation get a
+/// random one by `seed` and their numbers. Grains of other cases stay as they are.
+InitialGrains as_spheres(const InitialGrains& grains, const GrainConfig& config,
+                         std::uint64_t seed);
+
+/// Whole grains: one entry for each clump, with its centre, velocity and spin and the diameter of
+/// the sphere of its volume; forces and torques are those on the clump. The same state where there
+/// are no clumps.
+GrainState whole_grains(const GrainState& grains);
+/// Sum over the spheres of each clump, in the order of whole_grains(); empty stays empty.
+Kokkos::View<const Vec3*> sum_over_spheres(const GrainState& grains,
+                                           const Kokkos::View<const Vec3*>& of_spheres);
+
+}  // namespace barchan
