@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "kernels/fluid/grid.hpp"
-#include "kernels/grains/grain.hpp"
+#include "kernels/grains/clump.hpp"
 
 namespace barchan {
 
@@ -39,12 +39,27 @@ KOKKOS_INLINE_FUNCTION void store(const FrameRows<T>& out, int p, const Vec3& v)
   out(p, 2) = static_cast<T>(v.z);
 }
 
-/// Stores what `value(p)` gives for each grain p, a number or a vector. An array is a `value`, too.
+template <class T>
+KOKKOS_INLINE_FUNCTION void store(const FrameRows<T>& out, int p, const Quaternion& q) {
+  out(p, 0) = static_cast<T>(q.w);
+  out(p, 1) = static_cast<T>(q.x);
+  out(p, 2) = static_cast<T>(q.y);
+  out(p, 3) = static_cast<T>(q.z);
+}
+
+/// Stores what `value(p)` gives for each grain p, a number, vector or rotation. An array is a
+/// `value`, too.
 template <class T, class Value>
 struct StoreRows {
   Value value;
   FrameRows<T> out;
   KOKKOS_FUNCTION void operator()(int p) const { store(out, p, value(p)); }
+};
+
+/// Orientation of a clump.
+struct OrientationOf {
+  Kokkos::View<const ClumpMotion*> clump;
+  KOKKOS_FUNCTION Quaternion operator()(int p) const { return clump(p).q; }
 };
 
 /// Position [m]: the image within the box, from 0 to below its extents also as a T.

@@ -52,6 +52,16 @@ struct ClumpsOfGrains {
   }
 };
 
+/// Kinetic energy of translation and rotation, (m |U|^2 + J . omega) / 2 [J].
+struct ClumpKineticEnergy {
+  ClumpsOfGrains clumps;
+  KOKKOS_FUNCTION void operator()(int clump, Real& sum) const {
+    const int head = clumps.head(clump);
+    const ClumpMotion c = clumps.motion(head);
+    sum += (c.m * dot(c.u, c.u) + dot(c.j, clumps.spin(c, clumps.kind_of(head)))) / 2;
+  }
+};
+
 /// Moves the clumps, one an index: half kicks of velocity and angular momentum, drift, free
 /// rotation. Spheres get x = X + r, u = U + omega x r and the spin omega of the clump. Reduces the
 /// largest excess of a sphere over its skin [m^2].

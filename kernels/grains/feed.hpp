@@ -49,7 +49,7 @@ struct ListLeavingGrains {
 
   KOKKOS_FUNCTION void operator()(int g) const {
     if (!who.leaves(g)) return;
-    const GrainKinematics& k = who.grains(g);
+    const GrainKinematics& k = who.place.grains(g);
     leaving(Kokkos::atomic_fetch_add(&n(), 1)) = {.id = static_cast<Real>(id(g)),
                                                   .r = k.r,
                                                   .m = k.m,

@@ -9,6 +9,7 @@
 #include "src/coupling/state_checks.hpp"
 #include "src/fluid/domain.hpp"
 #include "src/initial/initial_flow.hpp"
+#include "src/initial/initial_state.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/run/results_writer.hpp"
 
@@ -96,7 +97,9 @@ RunState start(const SettledCase& the_case, const InitialGrains& grains) {
     state.fluid = make_fluid_state(make_grid(the_case.fluid(), pencils.get()));
     set_flow(UniformFlow{}, the_case, *state.fluid);
   }
-  if (config.grains) state.grains = make_grain_state(grains, densities_of(*config.grains), ranks);
+  if (config.grains)
+    state.grains =
+        make_grain_state(spheres_at_start(grains, config), densities_of(*config.grains), ranks);
   return {the_case, std::move(pencils), std::move(state)};
 }
 

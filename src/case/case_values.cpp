@@ -35,6 +35,20 @@ Mismatch convert(const Node& node, std::vector<SizeClass>& value) {
   return {};
 }
 
+Mismatch convert(const Node& node, std::vector<ClumpSphere>& value) {
+  const std::string expected = "an array of [x, y, z, radius above 0]";
+  const auto* spheres = std::get_if<NodeArray>(&node.value);
+  if (spheres == nullptr) return expected;
+  for (const Node& element : *spheres) {
+    std::array<double, 4> numbers{};
+    if (convert(element, numbers) || !(numbers[3] > 0))
+      return fmt::format("{}; {} is not", expected, toml_text(element));
+    const auto& [x, y, z, radius] = numbers;
+    value.push_back({{x, y, z}, radius});
+  }
+  return {};
+}
+
 namespace {
 
 /// Turns a word into the set that it stands for.
@@ -79,6 +93,13 @@ std::string toml_text(const std::vector<SizeClass>& sizes) {
   return fmt::format("[{}]", fmt::join(classes, ", "));
 }
 
+std::string toml_text(const std::vector<ClumpSphere>& spheres) {
+  std::vector<std::string> rows;
+  for (const auto& [c, radius] : spheres)
+    rows.push_back(toml_text(std::array{c.x, c.y, c.z, radius}));
+  return fmt::format("[{}]", fmt::join(rows, ", "));
+}
+
 std::string toml_text(const ForceSwitches& forces) {
   std::vector<std::string> names;
   for (const ForceName& force : kForceNames) {
@@ -93,6 +114,11 @@ Mismatch check(const PlaneVelocity& value, const Range& range) {
 
 Mismatch check(const SizeClass& value, const Range& range) { return check(value.diameter, range); }
 
+Mismatch check(const ClumpSphere& value, const Range& range) {
+  const Vec3& c = value.centre;
+  return check(std::array{c.x, c.y, c.z, value.radius}, range);
+}
+
 Form ValueKind<PlaneVelocity>::form() {
   using enum Form::Of;
   return {.of = any_of, .parts = {{number}, {.of = number, .count = 2}}};
@@ -101,6 +127,11 @@ Form ValueKind<PlaneVelocity>::form() {
 Form ValueKind<std::vector<SizeClass>>::form() {
   using enum Form::Of;
   return {.of = list, .parts = {{.of = tuple, .parts = {{number}, {positive}}}}};
+}
+
+Form ValueKind<std::vector<ClumpSphere>>::form() {
+  using enum Form::Of;
+  return {.of = list, .parts = {{.of = number, .count = 4}}};
 }
 
 Form ValueKind<ForceSwitches>::form() {

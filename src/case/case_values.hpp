@@ -38,14 +38,17 @@ inline constexpr std::array<ForceSet, 2> kForceSets{
 
 Mismatch convert(const Node& node, PlaneVelocity& value);
 Mismatch convert(const Node& node, std::vector<SizeClass>& value);
+Mismatch convert(const Node& node, std::vector<ClumpSphere>& value);
 Mismatch convert(const Node& node, ForceSwitches& value);
 
 std::string toml_text(const PlaneVelocity& value);
 std::string toml_text(const std::vector<SizeClass>& value);
+std::string toml_text(const std::vector<ClumpSphere>& value);
 std::string toml_text(const ForceSwitches& value);
 
 Mismatch check(const PlaneVelocity& value, const Range& range);
 Mismatch check(const SizeClass& value, const Range& range);
+Mismatch check(const ClumpSphere& value, const Range& range);
 
 template <>
 struct ValueKind<PlaneVelocity> {
@@ -55,6 +58,11 @@ struct ValueKind<PlaneVelocity> {
 template <>
 struct ValueKind<std::vector<SizeClass>> {
   static std::string type() { return "array of [diameter, count]"; }
+  static Form form();
+};
+template <>
+struct ValueKind<std::vector<ClumpSphere>> {
+  static std::string type() { return "array of [x, y, z, radius]"; }
   static Form form();
 };
 template <>

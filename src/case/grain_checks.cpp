@@ -9,6 +9,7 @@
 #include "src/case/feed_checks.hpp"
 #include "src/case/immersed_checks.hpp"
 #include "src/case/kind_checks.hpp"
+#include "src/case/shape_checks.hpp"
 #include "src/fluid/mesh.hpp"
 #include "src/grains/kinds.hpp"
 
@@ -209,6 +210,7 @@ void check_grains(const Config& c, Findings& found) {
                  "must be absent unless contact_model = \"linear\"");
   check_floor(grains, c.size, found);
   check_kinds(grains, found);
+  check_shapes(c, found);
   const bool immersed = c.fluid && is_immersed(c.coupling, grains);
   if (immersed) check_immersed(c, found);
   found.error_if(grains.contact_model.is<HertzLubricated>() && !immersed,
@@ -275,6 +277,7 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
           (is_periodic_x(c) && c.size[0] < reach),
       {"domain.size", "grains.sizes", "grains.skin"},
       "must be at least {:.3g} m in a periodic direction: a grain would meet its own image", reach);
+  check_clump_sizes(c, sizes, found);
   check_fed_sizes(c, n.d_max, found);
   check_motion(c, derived, found);
   if (!c.fluid) return found.all;

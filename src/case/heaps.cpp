@@ -7,13 +7,14 @@
 #include <iterator>
 #include <numbers>
 
+#include "src/grains/clumps.hpp"
 #include "src/grains/kinds.hpp"
 
 namespace barchan {
 
 double poured_spacing(const std::vector<SizeClass>& sizes) {
   double widest = 0;
-  for (const SizeClass& size : sizes) widest = std::max(widest, size.diameter);
+  for (const SizeClass& size : sizes) widest = std::max(widest, size.diameter * size.wide);
   return 1.01 * widest;
 }
 
@@ -40,7 +41,13 @@ double poured_top(const std::vector<HeapConfig>& heaps, const std::array<double,
 std::vector<HeapConfig> poured_heaps(const Config& config) {
   const InitialConfig& initial = config.initial;
   if (!config.grains) return {};
-  const std::vector<SizeClass> all = poured_sizes(*config.grains);
+  std::vector<SizeClass> all = poured_sizes(*config.grains);
+  const std::vector<KindConfig> kinds = all_kinds(*config.grains);
+  const auto set_widths = [&kinds](std::vector<SizeClass>& sizes) {
+    for (SizeClass& size : sizes)
+      size.wide = width_of(kinds[static_cast<std::size_t>(size.kind)].shape);
+  };
+  set_widths(all);
   std::vector<HeapConfig> heaps = initial.pour ? std::vector{*initial.pour} : initial.heaps;
   for (std::size_t n = 0; n < heaps.size(); ++n) {
     HeapConfig& heap = heaps[n];
@@ -48,6 +55,7 @@ std::vector<HeapConfig> poured_heaps(const Config& config) {
     if (heap.name.empty() && !initial.pour) heap.name = fmt::format("heap {}", n + 1);
     const int kind = kind_of_name(*config.grains, heap.kind);
     for (SizeClass& size : heap.sizes) size.kind = std::max(kind, 0);
+    set_widths(heap.sizes);
     if (!heap.sizes.empty()) continue;
     std::ranges::copy_if(all, std::back_inserter(heap.sizes), [&](const SizeClass& size) {
       return heap.kind.empty() || size.kind == kind;

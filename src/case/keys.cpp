@@ -67,6 +67,7 @@ void add_grains(Sections& all) {
   key("density", &G::density, between(1e-6, 1e9), "kg/m3", "density of the grains",
       fixed_by_restart);
   add_material(all.back(), [](auto& c) { return c.grains ? &c.grains->material : nullptr; });
+  add_shape(all.back(), [](auto& c) { return c.grains ? &c.grains->shape : nullptr; });
   key("coulomb_limit", &G::coulomb_limit,
       "normal force in the Coulomb limit: the total one, or its elastic part");
   key("rolling_model", &G::rolling_model, "model of the resistance to rolling");

@@ -32,6 +32,10 @@ void add_kinds(Sections& all) {
     auto* kinds = list(c);
     return kinds != nullptr && entry < kinds->size() ? &(*kinds)[entry].material : nullptr;
   });
+  add_shape(section, [list](auto& c, std::size_t entry) {
+    auto* kinds = list(c);
+    return kinds != nullptr && entry < kinds->size() ? &(*kinds)[entry].shape : nullptr;
+  });
   key("sizes", &K::sizes, between(1e-9, 1e6), "m",
       "[[diameter, count], ...] of the grains of this kind to pour");
   section.append = [](Config& c) {
@@ -40,6 +44,7 @@ void add_kinds(Sections& all) {
     c.grains->kinds.push_back({.name = {},
                                .density = grains.density,
                                .material = grains.material,
+                               .shape = grains.shape,
                                .sizes = grains.sizes});
   };
 }

@@ -1,6 +1,7 @@
 // Keys of materials: of the grains, the walls, kinds of grains and pairs of kinds.
 #pragma once
 
+#include "src/case/case_values.hpp"
 #include "src/grains/grains_case.hpp"
 #include "src/toml/key_builder.hpp"
 
@@ -19,6 +20,24 @@ void add_material(Section& section, Get get) {
       "coefficient of sliding friction");
   key("rolling_friction", &M::rolling_friction, between(0, 1e6), "",
       "coefficient of rolling friction");
+}
+
+/// Adds the keys of a shape, to [grains] and [[grains.kind]].
+template <class Get>
+void add_shape(Section& section, Get get) {
+  Keys key(section, get);
+  using S = ShapeConfig;
+  key("shape", &S::shape,
+      "spheres, or rigid clumps of spheres; the diameter of a clump is that of the sphere of its "
+      "volume",
+      fixed_by_restart);
+  key("spheres", &S::spheres, between(-1e9, 1e9), "",
+      "spheres of a clump in any unit of length, which may overlap: only their union counts",
+      fixed_by_restart);
+  key("clump", &S::clump,
+      "a clump with a name: two overlapping spheres, four or eight that touch, or an angular grain "
+      "like sand",
+      fixed_by_restart);
 }
 
 /// Adds [grains.wall], [[grains.kind]], [[grains.pair]].

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "kernels/coupling/force_output.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/parallel/launch.hpp"
 
 namespace barchan {
@@ -53,6 +54,16 @@ ForceArrays grain_forces(const SystemState& state, const GrainSolver& solver, Re
   forces.contact_tangential = tangential;
   forces.total = resultant_force(grains, dt);
   return forces;
+}
+
+ForceArrays of_whole_grains(const GrainState& grains, const ForceArrays& of_spheres) {
+  using F = ForceArrays;
+  F whole = of_spheres;
+  for (auto F::*force :
+       {&F::flow, &F::torque, &F::drag, &F::added_mass, &F::lift, &F::pressure_gradient, &F::stress,
+        &F::contact, &F::contact_normal, &F::contact_tangential, &F::total})
+    whole.*force = sum_over_spheres(grains, of_spheres.*force);
+  return whole;
 }
 
 Kokkos::View<Vec3*> resultant_force(const GrainState& grains, Real dt) {

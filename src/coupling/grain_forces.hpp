@@ -22,6 +22,9 @@ struct ForceArrays {
 /// length of the fluid step [s].
 ForceArrays grain_forces(const SystemState& state, const GrainSolver& solver, Real dt);
 
+/// Sums over the spheres of each clump, in the order of whole_grains().
+ForceArrays of_whole_grains(const GrainState& grains, const ForceArrays& of_spheres);
+
 /// Resultant force on each grain [N].
 Kokkos::View<Vec3*> resultant_force(const GrainState& grains, Real dt);
 

@@ -55,7 +55,8 @@ std::string position(const Vec3& x) {
 }
 
 std::string grain_at(const GrainState& grains, int g) {
-  return fmt::format("grain {} at {}", element(grains.id, g), position(element(grains.kin, g).x));
+  return fmt::format("grain {} at {}", grain_number(grains, element(grains.id, g)),
+                     position(element(grains.kin, g).x));
 }
 
 std::string cell_at(const Grid& grid, int cell) {
@@ -131,7 +132,8 @@ struct GrainProblems {
     const int i = element(grains.list.i, worst.loc), j = element(grains.list.j, worst.loc);
     return fmt::format(
         "{} and grain {} overlap by {:.1f} % of their mean diameter (at most {:.0f} %){}",
-        grain_at(grains, i), element(grains.id, j), 100 * worst.val, 100 * limit, remedy());
+        grain_at(grains, i), grain_number(grains, element(grains.id, j)), 100 * worst.val,
+        100 * limit, remedy());
   }
   const char* remedy() const {
     if (at_start) return ": move them apart, or allow it with grains.max_overlap";

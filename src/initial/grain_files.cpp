@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -43,11 +44,20 @@ std::vector<std::uint8_t> as_heaps(const std::vector<std::int64_t>& numbers,
   return heaps;
 }
 
+/// Tells if all orientations are rotations.
+bool are_rotations(const std::vector<Quaternion>& all) {
+  return std::ranges::all_of(all, [](const Quaternion& q) {
+    return std::abs(q.w * q.w + dot(q.vec(), q.vec()) - 1) < 1e-6;
+  });
+}
+
 /// Checks grains of a file that somebody else may have made, as the rows of a table are.
 void check_grains(const InitialGrains& grains, const std::filesystem::path& file) {
   const auto finite = [](const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
   };
+  if (!are_rotations(grains.q))
+    throw std::runtime_error(file.string() + ": an orientation is no unit quaternion");
   std::unordered_set<std::int64_t> ids;
   ids.reserve(grains.size());
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -93,6 +103,11 @@ InitialGrains read_last_frame(const Hdf5File& file) {
   grains.x = to_vectors(file.read<double>(group + "x", {n, 3}));
   grains.u = to_vectors(file.read<double>(group + "u", {n, 3}));
   grains.omega = to_vectors(file.read<double>(group + "omega", {n, 3}));
+  if (file.exists(group + "orientation")) {
+    const auto q = file.read<double>(group + "orientation", {n, 4});
+    for (std::size_t g = 0; g < n; ++g)
+      grains.q.push_back({q[4 * g], q[4 * g + 1], q[4 * g + 2], q[4 * g + 3]});
+  }
   const std::string kind = group + "kind", heap = group + "heap";
   if (file.exists(kind)) {
     for (const std::int64_t k : file.read<std::int64_t>(kind, {n}))
@@ -107,6 +122,21 @@ InitialGrains read_last_frame(const Hdf5File& file) {
     grains.last_id = file.attribute<std::int64_t>(frames.back().name, "last_id");
   wrap_as_written(grains, read_provenance(file), file.path());
   return grains;
+}
+
+/// Takes whole clumps in place of their spheres.
+void take_clumps(const CheckpointReader& file, InitialGrains& grains) {
+  constexpr std::uint64_t width = checkpoint_detail::Stored<ClumpMotion>::count;
+  const auto numbers = file.array<double>("grains/clump", {grains.size(), width});
+  std::vector<bool> heads;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    ClumpMotion c;
+    std::memcpy(static_cast<void*>(&c), numbers.data() + g * width, sizeof(c));
+    grains.diameter[g] = c.d, grains.x[g] = c.x, grains.u[g] = c.u;
+    grains.q.push_back(c.q);
+    heads.push_back(member_of_id(grains.id[g]) == 0);
+  }
+  grains.keep(heads);
 }
 
 InitialGrains read_restart(const std::filesystem::path& path) {
@@ -132,6 +162,7 @@ InitialGrains read_restart(const std::filesystem::path& path) {
     grains.heap = as_heaps(file.array<std::int64_t>("grains/heap", {n}), path);
     grains.heap_names = lines_of(file.text("grains/heap_names"));
   }
+  if (file.has("grains/clump")) take_clumps(file, grains);
   wrap_as_written(grains, file.provenance(), path);
   return grains;
 }

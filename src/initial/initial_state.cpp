@@ -16,6 +16,7 @@
 #include "src/case/load.hpp"
 #include "src/case/validate.hpp"
 #include "src/fluid/domain.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/grains/grain_kinds.hpp"
 #include "src/grains/kinds.hpp"
 #include "src/initial/crater.hpp"
@@ -127,6 +128,15 @@ void check_apart(const InitialGrains& grains, const PeriodicBox& box, const std:
                                source, grains.id[*same], grains.id[*(same + 1)], x.x, x.y, x.z));
 }
 
+/// Refuses numbers beyond those that spheres of clumps can have.
+void check_numbers(const Config& config, const InitialGrains& grains, const std::string& source) {
+  if (!has_clumps(*config.grains)) return;
+  const auto [least, most] = std::ranges::minmax(grains.id);
+  if (least >= 0 && most <= kLargestNumber) return;
+  throw InputError(fmt::format("{}: a grain has the id {}: with clumps it must be from 0 to {}",
+                               source, least < 0 ? least : most, kLargestNumber));
+}
+
 }  // namespace
 
 namespace {
@@ -190,6 +200,7 @@ InitialGrains checked_grains(const SettledCase& the_case, const std::filesystem:
   if (grains.size() == 0) throw InputError(source + " holds no grains");
   grains.last_id = std::max(grains.last_id, std::ranges::max(grains.id));
   check_free_ids(config, grains.last_id, source);
+  check_numbers(config, grains, source);
   if (heaps.empty()) take_kinds(grains, *config.grains, source);
   check_sizes(extreme_sizes(grains), config, source);
   if (config.initial.window) cut_to_window(config, box_of(config), grains);
@@ -198,10 +209,16 @@ InitialGrains checked_grains(const SettledCase& the_case, const std::filesystem:
   cut_craters(config.initial.craters, grains);
   if (grains.size() == 0) throw InputError("initial.crater leaves no grains");
   check_apart(grains, box_of(config), source);
-  check_outside_bodies(grains, the_case.grains(), source);
+  const InitialGrains spheres = spheres_at_start(grains, config);
+  check_outside_bodies(spheres, the_case.grains(), source);
   if (!config.grains->frozen)
-    check_overlaps(grains, box_of(config), config.grains->max_overlap, source);
+    check_overlaps(spheres, box_of(config), config.grains->max_overlap, source);
   return grains;
+}
+
+InitialGrains spheres_at_start(const InitialGrains& grains, const Config& config) {
+  const auto realisation = static_cast<std::uint64_t>(config.initial.realisation - 1);
+  return as_spheres(grains, *config.grains, config.initial.seed + realisation);
 }
 
 SystemState make_initial_state(const SettledCase& the_case, const InitialFiles& files,
@@ -210,7 +227,7 @@ SystemState make_initial_state(const SettledCase& the_case, const InitialFiles& 
   SystemState state;
   if (config.fluid) state.fluid = initial_fluid(the_case, files.fluid, pencils);
   if (config.grains) {
-    const InitialGrains grains = checked_grains(the_case, files.grains);
+    const InitialGrains grains = spheres_at_start(checked_grains(the_case, files.grains), config);
     state.grains = make_grain_state(grains, densities_of(*config.grains), ranks);
   }
   return state;

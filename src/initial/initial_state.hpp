@@ -35,6 +35,10 @@ std::string source_of_grains(const Config& config, const std::filesystem::path& 
 /// the case does not suit them, and whatever the readers throw.
 InitialGrains checked_grains(const SettledCase& the_case, const std::filesystem::path& file);
 
+/// Spheres of these grains as a case starts with them; clumps without an orientation get one by
+/// chance, that of the case's seed and realisation.
+InitialGrains spheres_at_start(const InitialGrains& grains, const Config& config);
+
 /// Makes the initial state: a flow at rest, uniform, turbulent or from a file; grains poured or
 /// from a file. The grains' list and the fluid fraction come with CoupledStep::start. Among
 /// `ranks`, the flow on `pencils`. Throws InputError if a file does not fit, and whatever the

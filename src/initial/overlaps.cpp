@@ -13,6 +13,11 @@
 namespace barchan {
 namespace {
 
+/// Number of a grain, of which an entry may be one sphere of many.
+std::int64_t number_of(const InitialGrains& grains, std::size_t entry) {
+  return grains.clump.empty() ? grains.id[entry] : clump_of_id(grains.id[entry]);
+}
+
 /// Grain, or its image beyond the upper side of a periodic direction, with the slab across x that
 /// its centre lies in; slabs are one largest diameter wide.
 struct InSlab {
@@ -57,6 +62,10 @@ class Search {
   }
 
  private:
+  bool of_one_clump(std::size_t a, std::size_t b) const {
+    return !grains_.clump.empty() && clump_of_id(grains_.id[a]) == clump_of_id(grains_.id[b]);
+  }
+
   static std::pair<std::int64_t, double> key(const InSlab& one) { return {one.slab, one.z}; }
 
   bool is_near(const InSlab& a, const InSlab& b) const {
@@ -72,7 +81,7 @@ class Search {
   void look_at(const InSlab& one, const InSlab& other, double most, Deepest& found) const {
     const bool known = (one.beyond_x && other.beyond_x) || (one.beyond_z && other.beyond_z);
     const std::size_t a = one.grain, b = other.grain;
-    if (known || a == b) return;
+    if (known || a == b || of_one_clump(a, b)) return;
     const double mean = 0.5 * (grains_.diameter[a] + grains_.diameter[b]);
     const double apart = norm(box_.nearest_image(grains_.x[a] - grains_.x[b]));
     const double overlap = 1 - apart / mean;
@@ -105,7 +114,8 @@ void check_overlaps(const InitialGrains& grains, const PeriodicBox& box, double 
                     const std::string& source) {
   const Deepest found = Search(grains, box).deepest(most);
   if (found.overlap <= most) return;
-  const auto [first, second] = std::minmax(grains.id[found.a], grains.id[found.b]);
+  const auto [first, second] =
+      std::minmax({number_of(grains, found.a), number_of(grains, found.b)});
   throw InputError(fmt::format(
       "{}: grains {} and {} overlap by {:.3g} % of their mean diameter at the start, which is more "
       "than grains.max_overlap, {:.3g} %{}",
@@ -133,8 +143,8 @@ void check_outside_bodies(const InitialGrains& grains, const GrainsCase& config,
         "(body.{}.centre, body.{}.base)",
         source, count == 1 ? "a grain lies" : fmt::format("{} grains lie", count),
         config.body_names[static_cast<std::size_t>(b)], 100 * most,
-        config.grains.frozen ? "" : " (grains.max_overlap)", grains.id[deepest], x.x, x.y, x.z,
-        100 * overlap, b + 1, b + 1));
+        config.grains.frozen ? "" : " (grains.max_overlap)", number_of(grains, deepest), x.x, x.y,
+        x.z, 100 * overlap, b + 1, b + 1));
   }
 }
 

@@ -235,8 +235,9 @@ InitialGrains pour(const std::vector<HeapConfig>& heaps, const std::array<double
       grains.heap_names.push_back(heaps[n].name);
     }
     if (heap.shape != HeapShape::bed) continue;
+    const double wide = std::ranges::max(config.sizes, {}, &SizeClass::wide).wide;
     for (std::size_t g = begin; g < grains.size(); ++g)
-      ground = std::max(ground, grains.x[g].y + grains.diameter[g] / 2);
+      ground = std::max(ground, grains.x[g].y + wide * grains.diameter[g] / 2);
   }
   if (std::ranges::count(grains.kind, 0) == std::ssize(grains.kind)) grains.kind.clear();
   return grains;

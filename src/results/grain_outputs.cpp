@@ -28,12 +28,14 @@ struct GrainOutput {
   std::vector<std::string> GrainState::*names = nullptr;  // of the values, which count them
 };
 
-/// Rows of T with what `value(p)` gives for grain p: a number or a Vec3.
+/// Rows of T with what `value(p)` gives for grain p: a number, a Vec3 or a Quaternion.
 template <class T, class Value>
 GrainValues rows(const GrainFrame& frame, const Value& value) {
-  constexpr bool vector = std::is_convertible_v<decltype(value(0)), Vec3>;
+  constexpr int width = std::is_convertible_v<decltype(value(0)), Vec3>         ? 3
+                        : std::is_convertible_v<decltype(value(0)), Quaternion> ? 4
+                                                                                : 1;
   const auto n = static_cast<std::size_t>(frame.grains.n);
-  const FrameRows<T> out("output: rows of grains", n, vector ? 3 : 1);
+  const FrameRows<T> out("output: rows of grains", n, width);
   Kokkos::parallel_for("output: rows of grains", Kokkos::RangePolicy<>(0, frame.grains.n),
                        StoreRows<T, Value>{value, out});
   return HostRows<T>(host_copy(out));
@@ -72,6 +74,11 @@ GrainValues positions(const GrainFrame& frame) {
   return rows<T>(frame, PositionOf<T>{frame.grains.kin, frame.box});
 }
 
+GrainValues orientations(const GrainFrame& frame) {
+  if (frame.grains.clump.size() == 0) return {};
+  return rows<double>(frame, OrientationOf{frame.grains.clump});
+}
+
 using F = ForceArrays;
 
 /// The table: one line for each array.
@@ -84,6 +91,10 @@ constexpr GrainOutput kGrainOutputs[] = {
      [](const GrainFrame& f) { return rows<float>(f, VelocityOf{f.grains.kin}); }},
     {"omega", "rad/s", "angular velocity",
      [](const GrainFrame& f) { return rows<float>(f, SpinOf{f.grains.kin}); }},
+    {"orientation", "1",
+     "quaternion w, x, y, z that turns the principal axes of a clump into space; in runs with "
+     "clumps",
+     orientations},
     {"force_drag", "N", "drag", force_of<&F::drag>},
     {"force_added_mass", "N", "force of the added mass", force_of<&F::added_mass>},
     {"force_lift", "N", "lift", force_of<&F::lift>},

@@ -4,10 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "kernels/grains/clump_motion.hpp"
 #include "kernels/grains/grain_sums.hpp"
 #include "src/base/atomic_file.hpp"
 #include "src/bodies/body_surface.hpp"
 #include "src/coupling/grain_forces.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/restart/state_file.hpp"
@@ -21,8 +23,14 @@ namespace {
 
 double kinetic_energy(const GrainState& grains) {
   double energy = 0;
-  Kokkos::parallel_reduce("history: kinetic energy of the grains", grains.n,
-                          GrainKineticEnergy{grains.kin}, energy);
+  if (grains.clump.size() > 0) {
+    const ClumpsOfGrains clumps{grains.shapes, grains.members, grains.clump, grains.kind};
+    Kokkos::parallel_reduce("history: kinetic energy of the clumps", grains.members.n,
+                            ClumpKineticEnergy{clumps}, energy);
+  } else {
+    Kokkos::parallel_reduce("history: kinetic energy of the grains", grains.n,
+                            GrainKineticEnergy{grains.kin}, energy);
+  }
   return sum_over(grains.ranks, energy);
 }
 
@@ -137,8 +145,9 @@ void ResultsWriter::write_history() {
     row.grain_step_over_stable = check_grain_step();
     const double area = run_.config.size[0] * run_.config.size[2];
     const double seconds = static_cast<double>(interval.steps) * run_.clock.fluid_step;
-    row.grain_flux = volume_flow(grains, true) / area;
-    if (across) row.grain_flux_z = volume_flow(grains, false) / area;
+    const GrainState whole = whole_grains(grains);
+    row.grain_flux = volume_flow(whole, true) / area;
+    if (across) row.grain_flux_z = volume_flow(whole, false) / area;
     if (interval.steps > 0) {
       row.stress_on_grains = interval.impulse_on_grains.x / (seconds * area);
       row.stress_on_grains_z = interval.impulse_on_grains.z / (seconds * area);
@@ -178,10 +187,11 @@ void ResultsWriter::write_frames() {
   if (grains) {
     ForceArrays forces;
     const CoupledStep& step = run_.coupled_step;
-    if (o.grain_forces) forces = grain_forces(now, *step.grain_solver(), step.dt());
-    output_.write_grains(*now.grains, t, clock.step, forces, dunes);
+    if (o.grain_forces)
+      forces = of_whole_grains(*now.grains, grain_forces(now, *step.grain_solver(), step.dt()));
+    output_.write_grains(whole_grains(*now.grains), t, clock.step, forces, dunes);
   }
-  if (tracks) output_.write_tracks(*now.grains, t, clock.step, dunes);
+  if (tracks) output_.write_tracks(whole_grains(*now.grains), t, clock.step, dunes);
   if (now.fluid && clock.due(o.fields_interval)) output_.write_fields(*now.fluid, t, clock.step);
   for (const SliceConfig& slice : o.slices) {
     if (clock.due(slice.interval)) output_.write_slice(slice, *now.fluid, t, clock.step);
@@ -227,8 +237,9 @@ std::string ResultsWriter::write_failure(const StateError& problem) const {
   if (!problem.on_all_ranks && rank_count(run_.ranks) > 1) return message;
   try {
     const auto& [fluid, grains] = run_.state;
+    const GrainState whole = grains ? whole_grains(*grains) : GrainState();
     const auto names =
-        output_.write_failure(fluid ? &*fluid : nullptr, grains ? &*grains : nullptr, t, step);
+        output_.write_failure(fluid ? &*fluid : nullptr, grains ? &whole : nullptr, t, step);
     return fmt::format("{}; look at it in {} ({})", message, folder_.string(),
                        fmt::join(names, ", "));
   } catch (const std::exception& second) {

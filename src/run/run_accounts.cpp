@@ -51,7 +51,7 @@ std::map<std::string, double> communication(const RunState& run, const MessageCo
   c["all_to_alls"] = since(now.all_to_alls, start.all_to_alls);
   if (!run.state.grains) return c;
   const NeighborList& list = *run.coupled_step.neighbor_list();
-  c["grains"] = run.state.grains->n;
+  c["grains"] = grain_count(*run.state.grains);
   c["ghost_grains"] = run.state.grains->n_ghosts;
   c["grain_imbalance"] = list.partition()->imbalance();
   return c;

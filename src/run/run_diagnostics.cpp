@@ -5,6 +5,7 @@
 #include "src/case/derived.hpp"
 #include "src/coupling/grain_forces.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
@@ -42,7 +43,7 @@ RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_d
 }
 
 std::vector<DuneRecord> RunDiagnostics::find_dunes() {
-  const std::vector<GrainSample> grains = gathered_grains(*run_.state.grains);
+  const std::vector<GrainSample> grains = gathered_grains(whole_grains(*run_.state.grains));
   largest_dune_.reset();
   heap_shares_.clear();
   if (rank_of(run_.ranks) != 0) return {};
@@ -57,7 +58,7 @@ std::vector<DuneRecord> RunDiagnostics::find_dunes() {
 }
 
 std::vector<int> RunDiagnostics::dune_labels() const {
-  const GrainState& grains = *run_.state.grains;
+  const GrainState grains = whole_grains(*run_.state.grains);
   const std::vector<GrainSample> all = gathered_grains(grains);
   std::vector<int> labels;
   if (rank_of(run_.ranks) == 0) labels = tracker_.labels(all);

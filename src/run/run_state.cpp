@@ -111,7 +111,7 @@ void RunState::advance() {
 }
 
 void RunState::count_grains() {
-  if (state.grains) n_grains = sum_over(ranks, state.grains->n);
+  if (state.grains) n_grains = sum_over(ranks, grain_count(*state.grains));
 }
 
 }  // namespace barchan

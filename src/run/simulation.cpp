@@ -7,6 +7,7 @@
 #include "src/base/errors.hpp"
 #include "src/base/stop_request.hpp"
 #include "src/case/derived.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/watchdog.hpp"
@@ -54,8 +55,9 @@ void Simulation::follow_first_dune(const std::string& source) {
   if (!std::isfinite(edge))
     throw InputError(source + ": holds no dune that grains.boundary_x = \"follow\" could follow");
   int n_cut = 0;
-  Kokkos::parallel_reduce("grains: at the edge", grains.n,
-                          run_.coupled_step.neighbor_list()->leaving(grains), n_cut);
+  const GrainState whole = whole_grains(grains);
+  Kokkos::parallel_reduce("grains: at the edge", whole.n,
+                          run_.coupled_step.neighbor_list()->leaving(whole), n_cut);
   const std::int64_t n = sum_over(run_.ranks, n_cut);
   if (n == 0) return;
   throw InputError(fmt::format(

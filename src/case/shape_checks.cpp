@@ -1,0 +1,82 @@
+#include "src/case/shape_checks.hpp"
+
+#include <algorithm>
+
+#include "src/grains/clumps.hpp"
+#include "src/grains/kinds.hpp"
+
+namespace barchan {
+namespace {
+
+/// Section of a kind, numbered from 0; a case without kinds has [grains].
+std::string section_of(const GrainConfig& grains, std::size_t kind) {
+  return grains.kinds.empty() ? "grains" : fmt::format("grains.kind.{}", kind + 1);
+}
+
+/// Checks one shape; `common`: that of [grains], whose keys a kind takes over.
+void check_shape(const ShapeConfig& shape, const ShapeConfig& common, const std::string& section,
+                 Findings& found) {
+  const std::string of = section + ".shape", spheres = section + ".spheres",
+                    clump = section + ".clump";
+  if (shape.shape == GrainShape::sphere) {
+    const bool own = &shape == &common || shape != common;
+    const bool given = own && common.shape == GrainShape::sphere;
+    found.error_if(given && !shape.spheres.empty(), {spheres, of},
+                   "must be absent unless shape = \"clump\"");
+    found.error_if(given && shape.clump, {clump, of}, "must be absent unless shape = \"clump\"");
+    return;
+  }
+  const bool both = !shape.spheres.empty() && shape.clump;
+  if (found.error_if(both, {spheres, clump}, "contradicts clump: give one of the two")) return;
+  const std::vector<ClumpSphere> all = spheres_of(shape);
+  if (found.error_if(all.empty(), {of, spheres, clump},
+                     "must come with its spheres = [[x, y, z, radius], ...], or with the name of "
+                     "a clump"))
+    return;
+  if (found.error_if(all.size() > kMostSpheres, {spheres, of},
+                     "must be at most {} spheres; there are {}", kMostSpheres, all.size()))
+    return;
+  const std::string problem = problem_of_clump(all);
+  found.error_if(!problem.empty(), {spheres, of}, "must be a whole: {}", problem);
+}
+
+}  // namespace
+
+void check_shapes(const Config& c, Findings& found) {
+  const GrainConfig& grains = *c.grains;
+  const std::size_t before = found.all.size();
+  const std::vector<KindConfig> kinds = all_kinds(grains);
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    check_shape(kinds[k].shape, grains.shape, section_of(grains, k), found);
+  if (found.all.size() > before || !has_clumps(grains)) return;
+  const auto first =
+      std::ranges::find_if(kinds, [](const KindConfig& kind) { return is_clump(kind.shape); });
+  const std::string key =
+      section_of(grains, static_cast<std::size_t>(first - kinds.begin())) + ".shape";
+  found.error_if(c.fluid.has_value(), {key, "fluid"},
+                 "must be \"sphere\" with [fluid]: clumps in water are not there yet");
+  found.error_if(grains.feed.has_value(), {key, "grains.feed.amount"},
+                 "must be \"sphere\" with [grains.feed], which brings in spheres alone");
+}
+
+void check_clump_sizes(const Config& c, const std::vector<SizeClass>& sizes, Findings& found) {
+  const GrainConfig& grains = *c.grains;
+  if (!has_clumps(grains)) return;
+  const std::vector<KindConfig> kinds = all_kinds(grains);
+  double widest = 0;
+  for (const SizeClass& size : sizes)
+    widest = std::max(widest,
+                      size.diameter * width_of(kinds[static_cast<std::size_t>(size.kind)].shape));
+  const double least = 2 * (widest + grains.skin);
+  found.error_if((grains.boundary_z == GrainBoundaryZ::periodic && c.size[2] < least) ||
+                     (is_periodic_x(grains) && c.size[0] < least),
+                 {"domain.size", "grains.sizes", "grains.shape"},
+                 "must be at least {:.3g} m in a periodic direction: a clump would meet its own "
+                 "image",
+                 least);
+  const double narrowest = *std::min_element(c.size.begin(), c.size.end());
+  found.error_if(widest >= narrowest, {"domain.size", "grains.sizes", "grains.shape"},
+                 "must be above {:.4g} m, the width of the largest clump", widest);
+}
+
+}  // namespace barchan

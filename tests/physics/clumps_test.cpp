@@ -1,0 +1,191 @@
+// Rigid clumps of spheres through list, contact law and integrator, against the mechanics of rigid
+// bodies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "src/coupling/coupled_step.hpp"
+#include "src/grains/named_clumps.hpp"
+#include "tests/support/clumps.hpp"
+#include "tests/support/packing.hpp"
+
+namespace barchan {
+namespace {
+
+using namespace test;
+
+constexpr Real kD = 2e-4;  // [m]
+
+/// Largest relative error of the energy of a body that tumbles without contacts for 2 ms.
+Real energy_error(int steps) {
+  const Config c = clump_config(crooked());
+  InitialGrains grains;
+  add_turned(grains, kD, {5e-3, 5e-3, 5e-3}, {0.5, 0.5, -0.5, 0.5}, {0.3, 0, 0},
+             {2000, 300, -2500});
+  ClumpBench bench(c, grains);
+  const ClumpSums before = sums_of(bench.state);
+  Real error = 0;
+  for (int n = 0; n < steps; n += steps / 50) {
+    bench.advance(steps / 50, 2e-3 / steps);
+    const ClumpSums now = sums_of(bench.state);
+    error = std::max(error, std::abs(now.energy / before.energy - 1));
+    EXPECT_EQ(norm(bench.clumps()[0].j - ClumpBench(c, grains).clumps()[0].j), 0);
+  }
+  // 2 ms at 0.3 m/s, and spheres that stay where the orientation says.
+  const ClumpMotion at = bench.clumps()[0];
+  EXPECT_NEAR(at.x.x, 5e-3 + 6e-4, 1e-15);
+  const ClumpShape shape = clump_shape(crooked());
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 arm = at.d * rotate(at.q, shape.spheres[static_cast<std::size_t>(k)].centre);
+    EXPECT_NEAR(norm(bench.grain(id_of_member(1, k)).x - at.x - arm), 0, 1e-17);
+  }
+  return error;
+}
+
+/// The angular momentum keeps its bits; the energy has the error of second order of the splitting.
+TEST(Clumps, FreeBodyKeepsItsAngularMomentumAndEnergy) {
+  const Real coarse = energy_error(500), fine = energy_error(1000);
+  EXPECT_LT(coarse, 1e-3);
+  EXPECT_GT(coarse, 1e-8);
+  EXPECT_NEAR(coarse / fine, 4, 0.1);
+}
+
+/// A dimer that meets a wall without friction or loss: the impulse P acts on its lower sphere, the
+/// speed of the contact is turned round, P = 2 v / (1/m + a^2/I). Tolerance: it turns on during the
+/// impact, by 1e-3 here.
+TEST(Clumps, DimerMeetsAWallAsARigidBody) {
+  for (const Real tilt : {0.0, 0.3, 0.9}) {
+    Config c = clump_config(NamedClump::dimer);
+    c.grains->material = c.grains->wall =
+        Material{.youngs_modulus = 1e10, .restitution = 1, .sliding_friction = 0};
+    const ClumpShape shape = clump_shape(named_clump("dimer"));
+    const Real half = norm(shape.spheres[0].centre) * kD, r = shape.spheres[0].radius * kD, v = 0.1;
+    // Along y when upright; tilted towards x, so that the lower sphere is at -x.
+    const Real from_axis = std::numbers::pi_v<Real> / 2 - tilt;
+    const Real a = half * std::cos(from_axis), height = half * std::sin(from_axis) + r;
+    InitialGrains grains;
+    add_turned(grains, kD, {5e-3, height + 1e-6, 5e-3}, rotation_about({0, 0, 1}, from_axis),
+               {0, -v, 0});
+    ClumpBench bench(c, grains);
+    const ClumpSums before = sums_of(bench.state);
+    const ClumpMotion start = bench.clumps()[0];
+    const Real inertia = shape.inertia.z * start.m * kD * kD;
+    const Real dt = 2e-10;
+    bool touched = false;
+    for (int n = 0; n < 400000; ++n) {
+      bench.advance(1, dt);
+      const bool touches =
+          norm(bench.contact_force(1)) + norm(bench.contact_force(id_of_member(1, 1))) > 0;
+      if (touched && !touches) break;
+      touched = touched || touches;
+    }
+    ASSERT_TRUE(touched);
+    const ClumpMotion after = bench.clumps()[0];
+    const Real impulse = 2 * v / (1 / start.m + a * a / inertia);
+    EXPECT_NEAR(after.u.y, -v + impulse / start.m, 2e-3 * v) << tilt;
+    EXPECT_NEAR(after.j.z, -a * impulse, 2e-3 * (a + 1e-3 * half) * impulse) << tilt;
+    EXPECT_NEAR(after.u.x, 0, 1e-12 * v);
+    // The energy comes back to the order of the step, and J + r x m v about the contact stays.
+    EXPECT_NEAR(sums_of(bench.state).energy / before.energy, 1, 1e-4) << tilt;
+    const Real about_contact = after.j.z + a * start.m * (after.u.y + v);
+    EXPECT_NEAR(about_contact, 0, 2e-3 * half * start.m * v) << tilt;
+  }
+}
+
+/// Clumps that meet with friction, loss and several contacts at once act on each other by forces in
+/// the same points.
+TEST(Clumps, CollisionsKeepMomentumAndAngularMomentum) {
+  Config c = clump_config(NamedClump::cube);
+  c.grains->material.restitution = 0.5;
+  InitialGrains grains;
+  add_turned(grains, kD, {5e-3, 5e-3, 5e-3}, rotation_about({0, 0, 1}, 0.2), {1, 0, 0},
+             {300, 0, 50});
+  add_turned(grains, 1.3 * kD, {5e-3 + 2.0 * kD, 5.02e-3, 5.03e-3},
+             rotation_about({0.6, 0, 0.8}, 1), {-1, 0.1, 0}, {0, -200, 0});
+  ClumpBench bench(c, grains);
+  const ClumpSums before = sums_of(bench.state);
+  bench.advance(400, 1e-6);
+  const ClumpSums after = sums_of(bench.state);
+  EXPECT_LT(after.energy, 0.9 * before.energy);  // they met
+  const Real p = bench.clumps()[0].m, j = p * 5e-3;
+  EXPECT_LT(norm(after.momentum - before.momentum), 1e-14 * p);
+  EXPECT_LT(norm(after.angular - before.angular), 1e-14 * j);
+}
+
+/// Spheres that a case with clumps moves as clumps of one go as spheres do: the same scheme with
+/// other roundings, which contacts enlarge.
+TEST(Clumps, SpheresAmongClumpsMoveAsSpheres) {
+  Config c = grain_config();
+  c.size = {3e-3, 5e-3, 3e-3};
+  c.grains->kinds = {{.name = "one"}, {.name = "other"}};
+  InitialGrains grains = lattice_packing(300, c.size, 0.3);
+  for (Vec3& omega : grains.omega) omega = {50, -20, 10};
+  GrainBench spheres(c, grains);
+  c.grains->kinds[1].shape = {.shape = GrainShape::clump, .clump = NamedClump::dimer};
+  ClumpBench clumps(c, grains);
+  ASSERT_GT(clumps.state.clump.size(), 0u);
+  for (GrainBench* bench : {&spheres, static_cast<GrainBench*>(&clumps)}) {
+    set_weight(bench->state, {0, -9.81, 0});
+    bench->advance(300, 1e-6);
+  }
+  EXPECT_GT(spheres.solver.contacts(spheres.state).n_contacts, 20);
+  const auto a = rows_by_id(spheres.state), b = rows_by_id(clumps.state);
+  for (std::size_t g = 1; g < a.size(); ++g) {
+    EXPECT_NEAR(norm(a[g].x - b[g].x), 0, 1e-15) << g;
+    EXPECT_NEAR(norm(a[g].u - b[g].u), 0, 1e-10) << g;
+    EXPECT_NEAR(norm(a[g].omega - b[g].omega), 0, 1e-6) << g;
+  }
+}
+
+/// Two cubes that meet across a seam go as two that meet in the middle of the box.
+TEST(Clumps, ASeamIsNowhere) {
+  Config c = clump_config(NamedClump::cube);
+  c.grains->boundary_x = GrainBoundaryX::periodic;
+  const auto run = [&](Real shift) {
+    InitialGrains grains;
+    const auto at = [&](Real x) { return std::fmod(x + shift + 0.01, 0.01); };
+    add_turned(grains, kD, {at(5e-3), 5e-3, 0.2e-4}, rotation_about({0, 0, 1}, 0.3), {1, 0, 0});
+    add_turned(grains, kD, {at(5e-3 + 1.6 * kD), 5.03e-3, 9.99e-3},
+               rotation_about({0.6, 0, 0.8}, 1), {-1, 0, 0}, {0, 0, 500});
+    ClumpBench bench(c, grains);
+    const Real before = sums_of(bench.state).energy;
+    bench.advance(600, 5e-7);
+    EXPECT_LT(sums_of(bench.state).energy, 0.98 * before);
+    EXPECT_GT(bench.solver.list().rebuilds(), 2);
+    return bench.clumps();
+  };
+  const auto middle = run(0), seam = run(5e-3 - 0.8 * kD);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_LT(norm(seam[k].u - middle[k].u), 1e-9) << k;
+    EXPECT_LT(norm(seam[k].j - middle[k].j) / norm(middle[k].j), 1e-7) << k;
+  }
+}
+
+/// A sphere in still water as a clump of the same volume: weight, buoyancy, drag and added mass are
+/// those of the sphere.
+TEST(Clumps, SinkInStillWaterAsTheSphereOfTheirVolume) {
+  Config c = grain_config();
+  c.grains->ambient.emplace();
+  c.grains->gravity = {0, -9.81, 0};
+  InitialGrains grains;
+  add_grain(grains, kD, {5e-3, 5e-3, 5e-3});
+  const auto fall = [&](const Config& config, const InitialGrains& all) {
+    SystemState state;
+    state.grains = make_grain_state(all, densities_of(*config.grains));
+    CoupledStep step(config, state);
+    step.start(state);
+    for (int n = 0; n < 40; ++n) step.advance(state);
+    const GrainState whole = whole_grains(*state.grains);
+    return host_copy(whole.kin)(0).u;
+  };
+  const Vec3 sphere = fall(c, grains);
+  c.grains->shape = {.shape = GrainShape::clump, .clump = NamedClump::sand};
+  const Vec3 clump = fall(c, as_spheres(grains, *c.grains, 1));
+  EXPECT_LT(sphere.y, -5e-3);
+  EXPECT_NEAR(clump.y / sphere.y, 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace barchan

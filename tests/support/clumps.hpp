@@ -1,0 +1,66 @@
+// Clumps for tests: their cases, and sums over all of them.
+#pragma once
+
+#include <vector>
+
+#include "kernels/grains/clump_motion.hpp"
+#include "src/grains/clumps.hpp"
+#include "tests/support/grain_bench.hpp"
+
+namespace barchan::test {
+
+/// Three unlike spheres: three unlike moments of inertia, no symmetry.
+inline std::vector<ClumpSphere> crooked() {
+  return {{{0, 0, 0}, 1}, {{1.2, 0, 0}, 0.8}, {{0.3, 0.9, 0.1}, 0.6}};
+}
+
+/// A dry case of clumps without gravity in a box of 10 mm.
+inline Config clump_config(const std::vector<ClumpSphere>& spheres) {
+  Config c = grain_config();
+  c.grains->shape = {.shape = GrainShape::clump, .spheres = spheres};
+  return c;
+}
+inline Config clump_config(NamedClump name) {
+  Config c = grain_config();
+  c.grains->shape = {.shape = GrainShape::clump, .clump = name};
+  return c;
+}
+
+/// Adds one grain with an orientation.
+inline void add_turned(InitialGrains& grains, Real d, const Vec3& x, const Quaternion& q,
+                       const Vec3& u = {}, const Vec3& omega = {}) {
+  add_grain(grains, d, x, u, omega);
+  grains.q.push_back(q);
+}
+
+/// A case of clumps with its solver.
+struct ClumpBench : GrainBench {
+  ClumpBench(const Config& c, const InitialGrains& grains, MPI_Comm ranks = MPI_COMM_SELF)
+      : GrainBench(c, as_spheres(grains, *c.grains, 1), ranks) {}
+
+  /// Motion of each clump of this rank in the order of whole_grains().
+  std::vector<ClumpMotion> clumps() const {
+    const auto motion = host_copy(whole_grains(state).clump);
+    return {motion.data(), motion.data() + grain_count(state)};
+  }
+};
+
+/// Sums over all clumps: momentum [N s], angular momentum about the origin [N m s], energy [J].
+struct ClumpSums {
+  Vec3 momentum, angular;
+  Real energy = 0;
+};
+inline ClumpSums sums_of(const GrainState& s) {
+  const ClumpsOfGrains clumps{s.shapes, s.members, s.clump, s.kind};
+  ClumpSums sums{};
+  Kokkos::parallel_reduce("test: energy", s.members.n, ClumpKineticEnergy{clumps}, sums.energy);
+  const auto motion = host_copy(whole_grains(s).clump);
+  for (int c = 0; c < s.members.n; ++c) {
+    const Vec3 p = motion(c).m * motion(c).u;
+    sums.momentum += p;
+    sums.angular += motion(c).j + cross(motion(c).x, p);
+  }
+  return sums;
+}
+
+}  // namespace barchan::test

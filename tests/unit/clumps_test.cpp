@@ -1,0 +1,244 @@
+// Clumps of spheres from the case to the state, its list and its sums.
+#include "src/grains/clumps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "kernels/grains/sphere.hpp"
+#include "src/case/heaps.hpp"
+#include "src/case/resolved.hpp"
+#include "src/grains/kinds.hpp"
+#include "src/initial/initial_state.hpp"
+#include "src/initial/pour.hpp"
+#include "tests/support/clumps.hpp"
+#include "tests/support/config_problems.hpp"
+#include "tests/support/packing.hpp"
+
+namespace barchan {
+namespace {
+
+using namespace test;
+
+const std::string kCube = "shape = \"clump\"\nclump = \"cube\"\n";
+
+Config case_of(const std::string& lines) {
+  return load_config_text(grain_case(lines), "case.toml");
+}
+
+TEST(Clumps, AreWrittenAsTheyAreRead) {
+  const Config c =
+      case_of("shape = \"clump\"\nspheres = [[0.0, 0.0, 0.0, 1.0], [1.5, 0.0, 0.25, 0.75]]\n");
+  const std::vector<ClumpSphere> two{{{0, 0, 0}, 1}, {{1.5, 0, 0.25}, 0.75}};
+  EXPECT_EQ(c.grains->shape.spheres, two);
+  EXPECT_TRUE(has_clumps(*c.grains));
+  EXPECT_EQ(config_as_written(to_toml(c), "case.toml").grains->shape, c.grains->shape);
+  const Config named = case_of(kCube);
+  EXPECT_EQ(spheres_of(named.grains->shape).size(), 8u);
+  EXPECT_EQ(config_as_written(to_toml(named), "case.toml").grains->shape, named.grains->shape);
+  Config other = named;
+  other.grains->shape.clump = NamedClump::dimer;
+  EXPECT_EQ(restart_conflicts(other, named).size(), 1u);
+}
+
+TEST(Clumps, AKindTakesItsShapeFromGrainsUnlessItHasItsOwn) {
+  const Config c = case_of(kCube +
+                           "[[grains.kind]]\nname = \"a\"\n[[grains.kind]]\nname = \"b\"\n"
+                           "spheres = [[0, 0, 0, 1], [1, 0, 0, 1]]\n"
+                           "[[grains.kind]]\nname = \"c\"\nshape = \"sphere\"\n");
+  const std::vector<KindConfig> kinds = all_kinds(*c.grains);
+  EXPECT_EQ(spheres_of(kinds[0].shape).size(), 8u);
+  EXPECT_EQ(spheres_of(kinds[1].shape).size(), 2u);
+  EXPECT_FALSE(is_clump(kinds[2].shape));
+  const ClumpShapes shapes = clump_shapes(*c.grains);
+  EXPECT_EQ(shapes.count(0), 8);
+  EXPECT_EQ(shapes.count(1), 2);
+  EXPECT_EQ(shapes.count(2), 1);
+  EXPECT_DOUBLE_EQ(shapes.inertia[2].x, 0.1);  // 2/5 of 1/2 squared
+}
+
+TEST(Clumps, MistakesAreToldWhereTheyAre) {
+  const auto tells = [](const std::string& lines, const std::string& line) {
+    SCOPED_TRACE(lines);
+    refused(grain_case(lines), "case.toml:" + line);
+  };
+  tells("shape = \"clum\"\n",
+        "10: [grains] shape = \"clum\": must be one of \"sphere\", \"clump\" (did you mean "
+        "\"clump\"?)");
+  tells("shape = \"clump\"\nclump = \"cbe\"\n",
+        "11: [grains] clump = \"cbe\": must be one of \"dimer\", \"tetrahedron\", \"cube\", "
+        "\"sand\" (did you mean \"cube\"?)");
+  tells("shape = \"clump\"\n",
+        "10: [grains] shape = \"clump\": must come with its spheres = [[x, y, z, radius], ...], "
+        "or with the name of a clump");
+  tells("clump = \"cube\"\n",
+        "10: [grains] clump = \"cube\": must be absent unless shape = \"clump\"");
+  tells(kCube + "spheres = [[0, 0, 0, 1]]\n",
+        "12: [grains] spheres = [[0, 0, 0, 1]]: contradicts clump: give one of the two");
+  tells("shape = \"clump\"\nspheres = [[0, 0, 1]]\n",
+        "11: [grains] spheres = [[0, 0, 1]]: must be an array of [x, y, z, radius above 0]; [0, "
+        "0, 1] is not");
+  tells("shape = \"clump\"\nspheres = [[0, 0, 0, 1], [3, 0, 0, 1]]\n",
+        "11: [grains] spheres = [[0, 0, 0, 1], [3, 0, 0, 1]]: must be a whole: sphere 2 of a "
+        "clump touches none that is joined to sphere 1");
+  tells(kCube + "[grains.feed]\nrate = 1.0\n",
+        "10: [grains] shape = \"clump\": must be \"sphere\" with [grains.feed], which brings in "
+        "spheres alone");
+  EXPECT_EQ(problems(coupled_case("[[0.2e-3, 100]]\nshape = \"clump\"\nclump = \"cube\"")),
+            only("case.toml:11: [grains] shape = \"clump\": must be \"sphere\" with [fluid]: "
+                 "clumps in water are not there yet"));
+}
+
+TEST(Clumps, ThoseWiderThanHalfAPeriodAreRefused) {
+  Config c = case_of(
+      "shape = \"clump\"\nspheres = [[0, 0, 0, 1], [2, 0, 0, 1], [4, 0, 0, 1], "
+      "[6, 0, 0, 1]]\nboundary_x = \"periodic\"\n");
+  // Four spheres in a row: 4 of their diameters long, each of d / 4^(1/3).
+  const double wide = 4 / std::cbrt(4.0);
+  EXPECT_NEAR(width_of(c.grains->shape), wide, 1e-9);
+}
+
+/// A clump of one sphere, wherever it stands, is a sphere: the same bits in each step.
+TEST(Clumps, OneSphereIsASphere) {
+  Config c = grain_config();
+  c.size = {3e-3, 5e-3, 3e-3};
+  const InitialGrains grains = lattice_packing(200, c.size, 0.5);
+  GrainBench sphere(c, grains);
+  c.grains->shape = {.shape = GrainShape::clump, .spheres = {{{1, 2, 3}, 4}}};
+  ClumpBench one(c, grains);
+  for (GrainBench* bench : {&sphere, static_cast<GrainBench*>(&one)}) bench->advance(200, 2e-6);
+  EXPECT_GT(sphere.solver.contacts(sphere.state).n_contacts, 5);
+  const auto a = rows_by_id(sphere.state), b = rows_by_id(one.state);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t g = 0; g < a.size(); ++g) {
+    EXPECT_EQ(norm(a[g].x - b[g].x), 0);
+    EXPECT_EQ(norm(a[g].u - b[g].u), 0);
+    EXPECT_EQ(norm(a[g].omega - b[g].omega), 0);
+  }
+}
+
+TEST(Clumps, SpheresHaveTheVolumeMassAndMotionOfTheirClump) {
+  const Config c = clump_config(NamedClump::tetrahedron);
+  InitialGrains grains;
+  add_grain(grains, 2e-4, {1e-3, 2e-3, 3e-3}, {0.1, 0, 0}, {0, 0, 100});
+  grains.add(5, 3e-4, {4e-3, 2e-3, 3e-3});
+  const InitialGrains spheres = as_spheres(grains, *c.grains, 1);
+  ASSERT_EQ(spheres.size(), 8u);
+  // Four spheres that touch in points: each has a quarter of the volume.
+  EXPECT_NEAR(spheres.diameter[0], 2e-4 / std::cbrt(4.0), 1e-15);
+  Vec3 centre, u;
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(clump_of_id(spheres.id[k]), 1);
+    EXPECT_EQ(member_of_id(spheres.id[k]), static_cast<int>(k));
+    EXPECT_EQ(clump_of_id(spheres.id[4 + k]), 5);
+    centre += 0.25 * spheres.x[k], u += 0.25 * spheres.u[k];
+    const Vec3 arm = spheres.x[k] - grains.x[0];
+    EXPECT_NEAR(norm(spheres.u[k] - grains.u[0] - cross(grains.omega[0], arm)), 0, 1e-16);
+  }
+  EXPECT_NEAR(norm(centre - grains.x[0]), 0, 1e-16);
+  EXPECT_NEAR(norm(u - grains.u[0]), 0, 1e-15);
+  const GrainState state = ClumpBench(c, grains).state;
+  EXPECT_EQ(state.n, 8);
+  EXPECT_EQ(grain_count(state), 2);
+  EXPECT_EQ(state.n_initial, 2);
+  EXPECT_EQ(last_id(state), 5);
+  const GrainState whole = whole_grains(state);
+  const auto kin = host_copy(whole.kin);
+  const auto id = host_copy(whole.id);
+  const int first = id(0) == 1 ? 0 : 1;
+  EXPECT_EQ(id(first), 1);
+  EXPECT_EQ(id(1 - first), 5);
+  EXPECT_EQ(kin(first).r, 1e-4);
+  EXPECT_DOUBLE_EQ(kin(first).m, 2500 * sphere_volume(1e-4));
+  EXPECT_EQ(norm(kin(first).x - grains.x[0]), 0);
+  EXPECT_NEAR(norm(kin(first).omega - grains.omega[0]), 0, 1e-12);
+}
+
+/// Orientations are random ones of all directions, the same for a number wherever it stands.
+TEST(Clumps, OrientationsComeFromSeedAndNumber) {
+  const Config c = clump_config(NamedClump::dimer);
+  InitialGrains grains;
+  for (int g = 0; g < 4000; ++g) add_grain(grains, 1e-4, {1e-3, 1e-3, 1e-3});
+  const auto of = [&](std::uint64_t seed) { return as_spheres(grains, *c.grains, seed).clump; };
+  const auto a = of(1), again = of(1), other = of(2);
+  std::array<Real, 3> squares{};
+  int same = 0;
+  for (std::size_t g = 0; g < a.size(); g += 2) {
+    EXPECT_EQ(a[g].q.w, again[g].q.w);
+    same += a[g].q.w == other[g].q.w ? 1 : 0;
+    EXPECT_NEAR(a[g].q.w * a[g].q.w + dot(a[g].q.vec(), a[g].q.vec()), 1, 1e-14);
+    const Vec3 axis = rotate(a[g].q, {1, 0, 0});
+    squares[0] += axis.x * axis.x, squares[1] += axis.y * axis.y, squares[2] += axis.z * axis.z;
+  }
+  EXPECT_EQ(same, 0);
+  // Mean square of a component: 1/3, with a spread of 0.3 / sqrt(4000).
+  for (const Real sum : squares) EXPECT_NEAR(sum / 4000, 1.0 / 3, 4 * 0.3 / std::sqrt(4000.0));
+}
+
+/// Pairs are all those of spheres of different clumps that are near each other, once.
+TEST(Clumps, ListHoldsThePairsOfOtherClumps) {
+  Config c = clump_config(NamedClump::cube);
+  c.size = {3e-3, 3e-3, 3e-3};
+  c.grains->boundary_x = GrainBoundaryX::periodic;
+  ClumpBench bench(c, random_grains(300, c.size, 3));
+  const GrainState& s = bench.state;
+  std::set<std::pair<std::int64_t, std::int64_t>> listed, near;
+  const auto i = host_copy(s.list.i), j = host_copy(s.list.j);
+  const auto id = host_copy(s.id);
+  const auto kin = host_copy(s.kin);
+  for (int p = 0; p < s.list.n_pairs; ++p) {
+    EXPECT_TRUE(listed.insert(std::minmax({id(i(p)), id(j(p))})).second);
+    EXPECT_NE(clump_of_id(id(i(p))), clump_of_id(id(j(p))));
+  }
+  for (int a = 0; a < s.n; ++a)
+    for (int b = 0; b < a; ++b) {
+      const Real apart = norm(bench.solver.box().nearest_image(kin(a).x - kin(b).x));
+      const Real reach = kin(a).r + kin(b).r + kin(a).skin + kin(b).skin;
+      if (apart < reach && clump_of_id(id(a)) != clump_of_id(id(b)))
+        near.insert(std::minmax({id(a), id(b)}));
+    }
+  EXPECT_GT(near.size(), 1000u);
+  EXPECT_EQ(listed, near);
+}
+
+/// Poured clumps do not reach into each other or the floor, however they are turned.
+TEST(Clumps, ArePouredByTheSpheresAroundThem) {
+  Config c = case_of(kCube);
+  const std::vector<HeapConfig> heaps = poured_heaps(c);
+  EXPECT_NEAR(poured_spacing(heaps[0].sizes), 1.01 * 2e-4 * width_of(c.grains->shape), 1e-12);
+  EXPECT_GT(width_of(c.grains->shape), 1.3);
+  const InitialGrains grains = pour_grains(heaps, c.size);
+  ASSERT_EQ(grains.size(), 100u);
+  const InitialGrains spheres = spheres_at_start(grains, c);
+  for (std::size_t a = 0; a < spheres.size(); ++a) {
+    EXPECT_GT(spheres.x[a].y, spheres.diameter[a] / 2);
+    for (std::size_t b = 0; b < a; ++b) {
+      if (clump_of_id(spheres.id[a]) == clump_of_id(spheres.id[b])) continue;
+      EXPECT_GT(norm(spheres.x[a] - spheres.x[b]), (spheres.diameter[a] + spheres.diameter[b]) / 2);
+    }
+  }
+}
+
+/// Clumps beyond the outlet leave as a whole, once.
+TEST(Clumps, LeaveAsAWhole) {
+  Config c = clump_config(NamedClump::cube);
+  c.size = {3e-3, 3e-3, 3e-3};
+  c.grains->boundary_x = GrainBoundaryX::exit;
+  InitialGrains grains = random_grains(60, {3e-3, 3e-3, 3e-3}, 3);
+  for (std::size_t g = 0; g < grains.size(); ++g) {  // no two of them meet
+    grains.x[g] = {4e-4 + 4e-4 * static_cast<double>(g % 6),
+                   4e-4 + 4e-4 * static_cast<double>(g / 6 % 5),
+                   4e-4 + 8e-4 * static_cast<double>(g / 30)};
+    grains.u[g] = {1, 0, 0}, grains.omega[g] = {};
+  }
+  ClumpBench bench(c, grains);
+  bench.advance(110, 1e-5);  // 1.1 mm
+  bench.solver.remove_left(bench.state);
+  EXPECT_EQ(grain_count(bench.state), 40);  // those from 2 mm on, two of six
+  EXPECT_EQ(bench.state.n, 8 * 40);
+  EXPECT_EQ(bench.state.n_left, 20);
+}
+
+}  // namespace
+}  // namespace barchan
