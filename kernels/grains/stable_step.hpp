@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernels/grains/body_contact.hpp"
+#include "kernels/grains/clump.hpp"
 #include "kernels/grains/contact_geometry.hpp"
 #include "kernels/grains/law_table.hpp"
 #include "kernels/grains/pair_list.hpp"
@@ -21,6 +22,7 @@ struct TangentialOfPairs {
   PairList list;
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<Real* [2]> sums;  // (n): stiffness [N/m], damping [kg/s]
+  InertiaInContacts inertia = {};
 
   KOKKOS_FUNCTION void operator()(int p, Real& shortest) const {
     const int i = list.i(p), j = list.j(p);
@@ -32,7 +34,7 @@ struct TangentialOfPairs {
     const ContactStiffness k = law(effective.r, effective.m, overlap);
     add(i, k);
     add(j, k);
-    const Real step = stable_step(k.k_t, k.gamma_t, kSlipInertia * effective.m);
+    const Real step = stable_step(k.k_t, k.gamma_t, inertia.slip * effective.m);
     shortest = step < shortest ? step : shortest;
   }
   /// Adds a contact to a grain of this rank; ghosts are skipped.
@@ -41,6 +43,11 @@ struct TangentialOfPairs {
     Kokkos::atomic_add(&sums(g, 0), k.k_t);
     Kokkos::atomic_add(&sums(g, 1), k.gamma_t);
   }
+};
+
+/// Tangential springs and dashpots of a grain.
+struct TangentialSums {
+  Real stiffness = 0, damping = 0;  // [N/m], [kg/s]
 };
 
 /// Adds the contacts with walls and bodies; reduces the shortest step of all grains [s].
@@ -52,8 +59,20 @@ struct StableStepOfGrains {
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const Real* [2]> sums;
   Kokkos::View<const std::uint8_t*> kind;  // kinds of the grains; empty: one kind
+  InertiaInContacts inertia = {};
 
   KOKKOS_FUNCTION void operator()(int g, Real& shortest) const {
+    const TangentialSums all = contacts_of(g, shortest);
+    take_spin(all, grains(g).m, shortest);
+  }
+  /// Takes the step of the spin of a grain with all of its contacts.
+  KOKKOS_FUNCTION void take_spin(const TangentialSums& all, Real m, Real& shortest) const {
+    if (all.stiffness <= 0) return;
+    const Real step = stable_step(all.stiffness, all.damping, inertia.spin * m);
+    shortest = step < shortest ? step : shortest;
+  }
+  /// Sums up the contacts of a grain; takes the step of each with a wall or a body alone.
+  KOKKOS_FUNCTION TangentialSums contacts_of(int g, Real& shortest) const {
     const GrainKinematics& grain = grains(g);
     const auto& law = laws.of(kind.extent(0) > 0 ? law_entry(kind(g), 0) : std::uint8_t{0});
     Real stiffness = sums(g, 0), damping = sums(g, 1);
@@ -62,13 +81,32 @@ struct StableStepOfGrains {
       if (!in_contact(law, r_eff, overlap)) return;
       const ContactStiffness k = law(r_eff, grain.m, overlap);
       stiffness += k.k_t, damping += k.gamma_t;
-      take(stable_step(k.k_t, k.gamma_t, kSlipInertia * grain.m));
+      take(stable_step(k.k_t, k.gamma_t, inertia.slip * grain.m));
     };
     for (int w = 0; w < walls.n; ++w)
       add(walls.at(w, grain.x).overlap(grain), walls.effective_radius(w, grain.r));
     for (int b = 0; b < bodies.n; ++b)
       add(grain.r - bodies.body[b].distance(grain.x), effective_radius(bodies.body[b], grain.r));
-    if (stiffness > 0) take(stable_step(stiffness, damping, kSpinInertia * grain.m));
+    return {stiffness, damping};
+  }
+};
+
+/// The same for clumps, whose spheres turn together.
+template <class Laws>
+struct StableStepOfClumps {
+  StableStepOfGrains<Laws> spheres;
+  ClumpMembers members;
+  ClumpShapes shapes;
+
+  KOKKOS_FUNCTION void operator()(int clump, Real& shortest) const {
+    TangentialSums all;
+    const int begin = members.first(clump), head = members.entry(begin);
+    const int count = shapes.count(spheres.kind.extent(0) > 0 ? spheres.kind(head) : 0);
+    for (int p = begin; p < begin + count; ++p) {
+      const TangentialSums of_one = spheres.contacts_of(members.entry(p), shortest);
+      all.stiffness += of_one.stiffness, all.damping += of_one.damping;
+    }
+    spheres.take_spin(all, spheres.grains(head).m, shortest);
   }
 };
 

@@ -13,18 +13,22 @@ std::string section_of(const GrainConfig& grains, std::size_t kind) {
   return grains.kinds.empty() ? "grains" : fmt::format("grains.kind.{}", kind + 1);
 }
 
+/// Checks that nothing is said of a clump where grains are spheres.
+void check_absent(const ShapeConfig& shape, const std::string& section, Findings& found) {
+  const std::string of = section + ".shape", message = "must be absent unless shape = \"clump\"";
+  found.error_if(!shape.spheres.empty(), {section + ".spheres", of}, "{}", message);
+  found.error_if(shape.clump.has_value(), {section + ".clump", of}, "{}", message);
+}
+
 /// Checks one shape; `common`: that of [grains], whose keys a kind takes over.
-void check_shape(const ShapeConfig& shape, const ShapeConfig& common, const std::string& section,
+void check_shape(ShapeConfig shape, const ShapeConfig& common, const std::string& section,
                  Findings& found) {
   const std::string of = section + ".shape", spheres = section + ".spheres",
                     clump = section + ".clump";
   if (shape.shape == GrainShape::sphere) {
-    const bool own = &shape == &common || shape != common;
-    const bool given = own && common.shape == GrainShape::sphere;
-    found.error_if(given && !shape.spheres.empty(), {spheres, of},
-                   "must be absent unless shape = \"clump\"");
-    found.error_if(given && shape.clump, {clump, of}, "must be absent unless shape = \"clump\"");
-    return;
+    if (shape.spheres == common.spheres) shape.spheres.clear();
+    if (shape.clump == common.clump) shape.clump.reset();
+    return check_absent(shape, section, found);
   }
   const bool both = !shape.spheres.empty() && shape.clump;
   if (found.error_if(both, {spheres, clump}, "contradicts clump: give one of the two")) return;
@@ -46,6 +50,7 @@ void check_shapes(const Config& c, Findings& found) {
   const GrainConfig& grains = *c.grains;
   const std::size_t before = found.all.size();
   const std::vector<KindConfig> kinds = all_kinds(grains);
+  if (grains.shape.shape == GrainShape::sphere) check_absent(grains.shape, "grains", found);
   for (std::size_t k = 0; k < kinds.size(); ++k)
     check_shape(kinds[k].shape, grains.shape, section_of(grains, k), found);
   if (found.all.size() > before || !has_clumps(grains)) return;

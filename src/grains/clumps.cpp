@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <numbers>
 #include <utility>
 
@@ -21,16 +22,17 @@ namespace {
 
 constexpr std::uint64_t kPurpose = 74;  // of the random numbers of orientations
 
-/// Shape of a kind, of volume pi/6. Those of all kinds of a program are few: they are kept.
+/// Shape of a kind, of volume pi/6. Those of all kinds of a program are few: they are kept. One
+/// that is none, as check_shapes tells, is taken as a sphere.
 const ClumpShape& shape_of(const ShapeConfig& shape) {
   static const ClumpShape sphere{
       .spheres = {{{}, 0.5}}, .shares = {1}, .inertia = {0.1, 0.1, 0.1}, .bounding_radius = 0.5};
-  static std::vector<std::pair<std::vector<ClumpSphere>, ClumpShape>> known;
+  static std::deque<std::pair<std::vector<ClumpSphere>, ClumpShape>> known;
   if (!is_clump(shape)) return sphere;
   const std::vector<ClumpSphere> spheres = spheres_of(shape);
   for (const auto& [given, made] : known)
     if (given == spheres) return made;
-  known.reserve(64);  // references stay
+  if (!problem_of_clump(spheres).empty()) return sphere;
   return known.emplace_back(spheres, clump_shape(spheres)).second;
 }
 
@@ -80,6 +82,16 @@ double longest_arm(const GrainConfig& grains) {
       longest = std::max<double>(longest, norm(sphere.centre) / largest);
   }
   return longest;
+}
+
+InertiaInContacts least_inertia_in_contacts(const GrainConfig& grains) {
+  InertiaInContacts least;
+  for (const KindConfig& kind : all_kinds(grains)) {
+    const ClumpShape& shape = shape_of(kind.shape);
+    const auto [slip, spin] = inertia_in_contacts(shape.inertia.x, shape.bounding_radius);
+    least = {.slip = std::min(least.slip, slip), .spin = std::min(least.spin, spin)};
+  }
+  return least;
 }
 
 ClumpShapes clump_shapes(const GrainConfig& grains) {

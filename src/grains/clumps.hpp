@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kernels/grains/step_limit.hpp"
 #include "src/grains/clump_shape.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/grains/grains_case.hpp"
@@ -21,6 +22,9 @@ double width_of(const ShapeConfig& shape);
 /// Longest distance from the centre of a grain to that of one of its spheres, over the radius of
 /// the largest sphere of its kind.
 double longest_arm(const GrainConfig& grains);
+
+/// Inertia of the grains against forces along their surface, the least of all kinds.
+InertiaInContacts least_inertia_in_contacts(const GrainConfig& grains);
 
 /// Shapes of all kinds for kernels.
 ClumpShapes clump_shapes(const GrainConfig& grains);

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "kernels/grains/grain_motion.hpp"
+#include "kernels/grains/step_limit.hpp"
 #include "kernels/grains/wall_shapes.hpp"
 #include "src/grains/grain_kinds.hpp"
 #include "src/grains/grains_on_bodies.hpp"
@@ -90,6 +91,7 @@ class GrainSolver {
   LawTables pair_laws_, wall_laws_;
   NeighborList list_;
   RollingModels::Variant rolling_;
+  InertiaInContacts inertia_in_contacts_;  // the least of all kinds
   WallShapes walls_;
   GrainsOnBodies on_bodies_;
   int ahead_ = kOnHost ? 1 : 16;

@@ -53,15 +53,25 @@ Real GrainSolver::stable_step(const GrainState& grains) const {
                                                     .box = list_.box(),
                                                     .list = grains.list,
                                                     .grains = grains.kin,
-                                                    .sums = sums},
+                                                    .sums = sums,
+                                                    .inertia = inertia_in_contacts_},
                             Kokkos::Min<Real>(of_pairs));
-    Kokkos::parallel_reduce("grains: stable step", items(grains.n),
-                            StableStepOfGrains<Laws>{.laws = walls,
-                                                     .walls = walls_,
-                                                     .bodies = bodies(),
-                                                     .grains = grains.kin,
-                                                     .sums = sums,
-                                                     .kind = grains.kind},
+    const StableStepOfGrains<Laws> of_each{.laws = walls,
+                                           .walls = walls_,
+                                           .bodies = bodies(),
+                                           .grains = grains.kin,
+                                           .sums = sums,
+                                           .kind = grains.kind,
+                                           .inertia = inertia_in_contacts_};
+    if (grains.clump.size() > 0) {
+      Kokkos::parallel_reduce(
+          "clumps: stable step", items(grains.members.n),
+          StableStepOfClumps<Laws>{
+              .spheres = of_each, .members = grains.members, .shapes = grains.shapes},
+          Kokkos::Min<Real>(of_grains));
+      return;
+    }
+    Kokkos::parallel_reduce("grains: stable step", items(grains.n), of_each,
                             Kokkos::Min<Real>(of_grains));
   });
   return slides ? -max_over(grains.ranks, -std::min(of_pairs, of_grains)) : of_pairs;

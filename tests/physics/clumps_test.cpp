@@ -110,8 +110,9 @@ TEST(Clumps, CollisionsKeepMomentumAndAngularMomentum) {
   const ClumpSums after = sums_of(bench.state);
   EXPECT_LT(after.energy, 0.9 * before.energy);  // they met
   const Real p = bench.clumps()[0].m, j = p * 5e-3;
-  EXPECT_LT(norm(after.momentum - before.momentum), 1e-14 * p);
-  EXPECT_LT(norm(after.angular - before.angular), 1e-14 * j);
+  // Each step rounds sums as large as these.
+  EXPECT_LT(norm(after.momentum - before.momentum), 1e-13 * p);
+  EXPECT_LT(norm(after.angular - before.angular), 1e-13 * j);
 }
 
 /// Spheres that a case with clumps moves as clumps of one go as spheres do: the same scheme with
@@ -119,7 +120,8 @@ TEST(Clumps, CollisionsKeepMomentumAndAngularMomentum) {
 TEST(Clumps, SpheresAmongClumpsMoveAsSpheres) {
   Config c = grain_config();
   c.size = {3e-3, 5e-3, 3e-3};
-  c.grains->kinds = {{.name = "one"}, {.name = "other"}};
+  c.grains->kinds.resize(2);
+  c.grains->kinds[0].name = "one", c.grains->kinds[1].name = "other";
   InitialGrains grains = lattice_packing(300, c.size, 0.3);
   for (Vec3& omega : grains.omega) omega = {50, -20, 10};
   GrainBench spheres(c, grains);

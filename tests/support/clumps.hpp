@@ -1,6 +1,7 @@
 // Clumps for tests: their cases, and sums over all of them.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "kernels/grains/clump_motion.hpp"
@@ -38,10 +39,16 @@ struct ClumpBench : GrainBench {
   ClumpBench(const Config& c, const InitialGrains& grains, MPI_Comm ranks = MPI_COMM_SELF)
       : GrainBench(c, as_spheres(grains, *c.grains, 1), ranks) {}
 
-  /// Motion of each clump of this rank in the order of whole_grains().
+  /// Motion of each clump of this rank in the order of their numbers.
   std::vector<ClumpMotion> clumps() const {
-    const auto motion = host_copy(whole_grains(state).clump);
-    return {motion.data(), motion.data() + grain_count(state)};
+    const GrainState whole = whole_grains(state);
+    const auto motion = host_copy(whole.clump);
+    const auto id = host_copy(whole.id);
+    std::map<std::int64_t, ClumpMotion> by_number;
+    for (int c = 0; c < whole.n; ++c) by_number[id(c)] = motion(c);
+    std::vector<ClumpMotion> all;
+    for (const auto& [number, one] : by_number) all.push_back(one);
+    return all;
   }
 };
 

@@ -33,7 +33,7 @@ inline void expect_same_state(const std::filesystem::path& a, const std::filesys
       ++n;
     }
   }
-  EXPECT_GT(n, first.exists("/grains/") ? 20 : 14);
+  EXPECT_GT(n, first.exists("/grains/") && first.exists("/fluid/") ? 20 : 14);
 }
 
 }  // namespace barchan::test
