@@ -191,9 +191,9 @@ inline constexpr int kNoted = 8;
 using NotedPartners = Kokkos::View<int* [kNoted], Kokkos::MemoryUnmanaged>;
 
 /// Counts the partners of each grain, in its own chunk and in others; notes the first of them.
-template <class Search>
+template <class Finder>
 struct CountPairs {
-  Search search;
+  Finder search;
   Chunks chunks;
   Kokkos::View<int*> inter, intra;
   NotedPartners noted;
@@ -212,9 +212,9 @@ struct CountPairs {
 
 /// Writes the pairs of each grain and their contact history. `old_entry` is the entry under which
 /// `history` has each owned grain.
-template <class Search>
+template <class Finder>
 struct FillPairs {
-  Search search;
+  Finder search;
   NotedPartners noted;
   PairList list;
   ContactHistory history;

@@ -1,7 +1,6 @@
 // Keys of materials: of the grains, the walls, kinds of grains and pairs of kinds.
 #pragma once
 
-#include "src/case/case_values.hpp"
 #include "src/grains/grains_case.hpp"
 #include "src/toml/key_builder.hpp"
 

@@ -21,15 +21,15 @@ std::vector<ClumpSphere> cube() {
   return spheres;
 }
 
-/// A grain like natural sand, made up, of 14 spheres. Two lie along the middle; twelve are its
-/// corners. Recipe: an ellipsoid with axes L : I : S = 1 : 0.788 : 0.621, so that I/L = S/I and
-/// S/sqrt(L I) = 0.7, the Corey shape factor usually taken for sand (Dietrich, Water Resour. Res.
-/// 18, 1615 (1982)). Corners touch it from inside where its normals are 12 points of a Fibonacci
-/// lattice on the sphere, each moved by up to 0.3 in each direction by uniform_number(2, direction,
-/// corner); radius S/4. Spheres in the middle: radius 0.425 S, 0.55 (L - S)/2 from the centre. The
-/// radius of corners, half that of the largest sphere inside, gives the sphericity 0.85 that X-ray
-/// tomography finds on average for desert sand (Minerals 12, 581 (2022)). Sharper corners would
-/// leave waists.
+/// A grain like natural sand, of 14 spheres. It is synthetic: no grain was scanned for it. Two lie
+/// along the middle; twelve are its corners. Recipe: an ellipsoid with axes L : I : S = 1 : 0.788 :
+/// 0.621, so that I/L = S/I and S/sqrt(L I) = 0.7, the Corey shape factor usually taken for sand
+/// (Dietrich, Water Resour. Res. 18, 1615 (1982)). Corners touch it from inside where its normals
+/// are 12 points of a Fibonacci lattice on the sphere, each moved by up to 0.3 in each direction by
+/// uniform_number(2, direction, corner); radius S/4. Spheres in the middle: radius 0.425 S, 0.55 (L
+/// - S)/2 from the centre. The radius of corners, half that of the largest sphere inside, gives the
+/// sphericity 0.85 that X-ray tomography finds on average for desert sand (Minerals 12, 581
+/// (2022)). Sharper corners would leave waists.
 std::vector<ClumpSphere> sand() {
   return {{{0.208, 0, 0}, 0.528},
           {{-0.208, 0, 0}, 0.528},

@@ -88,8 +88,8 @@ class NeighborList {
   Windows find_windows(const Kokkos::View<GrainKinematics*>& grains, int n);
   void reserve_pairs(PairList& list) const;
   void search(GrainState& grains);
-  template <class Search>
-  void find_pairs(GrainState& grains, const Search& search);
+  template <class Finder>
+  void find_pairs(GrainState& grains, const Finder& search);
   void find_ghosts_and_pairs(GrainState& grains);
   void take_memory(const GrainState& grains);
   void reserve_memory(int n);

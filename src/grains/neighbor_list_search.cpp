@@ -7,13 +7,13 @@
 namespace barchan {
 
 /// Counts the pairs that a search finds, makes room for them and writes them.
-template <class Search>
-void NeighborList::find_pairs(GrainState& grains, const Search& search) {
+template <class Finder>
+void NeighborList::find_pairs(GrainState& grains, const Finder& search) {
   const int n = grains.n + grains.n_ghosts;
   PairList& list = grains.list;
   const auto noted = used_as<NotedPartners>(grain_memory_, n);
   Kokkos::parallel_for("neighbors: count", n,
-                       CountPairs<Search>{.search = search,
+                       CountPairs<Finder>{.search = search,
                                           .chunks = list.chunks,
                                           .inter = list.first,
                                           .intra = list.intra_first,
@@ -22,7 +22,7 @@ void NeighborList::find_pairs(GrainState& grains, const Search& search) {
   list.n_pairs = counts_to_offsets(list.intra_first, n, list.n_inter);
   reserve_pairs(list);
   Kokkos::parallel_for("neighbors: fill", n,
-                       FillPairs<Search>{.search = search,
+                       FillPairs<Finder>{.search = search,
                                          .noted = noted,
                                          .list = list,
                                          .history = history_,

@@ -33,6 +33,7 @@ class Barchan(CMakePackage, CudaPackage):
     depends_on("hdf5+mpi")
     depends_on("fftw@3:", when="~cuda")
     depends_on("cli11@2:")
+    depends_on("eigen@3.3:")
     depends_on("fmt@9:")
     depends_on("nlohmann-json@3:")
     depends_on("tomlplusplus@3:")
