@@ -9,6 +9,8 @@
 #include "kernels/coupling/markers.hpp"
 #include "src/base/errors.hpp"
 #include "src/fluid/fluid_state.hpp"
+#include "src/grains/clumps.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/parallel/communicator.hpp"
 
 namespace barchan {
@@ -67,7 +69,11 @@ double memory_of_case(const Config& config, const std::vector<SizeClass>& sizes)
     if (config.fluid && is_immersed(config.coupling, *config.grains))
       of_grain += bytes_of_markers(config, sizes);
     bytes += of_grain * fed_grains(config);
-    for (const SizeClass& size : sizes) bytes += of_grain * static_cast<double>(size.count);
+    const std::vector<KindConfig> kinds = all_kinds(*config.grains);
+    for (const SizeClass& size : sizes) {
+      const auto kind = static_cast<std::size_t>(size.kind);
+      bytes += of_grain * static_cast<double>(size.count) * sphere_count(kinds[kind].shape);
+    }
   }
   return bytes;
 }

@@ -10,6 +10,7 @@
 #include "src/case/derived.hpp"
 #include "src/case/immersed_checks.hpp"
 #include "src/fluid/mesh.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/grains/kinds.hpp"
 
 namespace barchan {
@@ -28,9 +29,10 @@ double rounded_down(double limit, const double (&mantissas)[N]) {
   return best / scale;
 }
 
-/// Longest stable step [s] of a grain that six others touch under the weight of 15 layers.
+/// Longest stable step [s] of a grain that six others touch under the weight of 15 layers. `spin`:
+/// its inertia against spin, as in InertiaInContacts.
 double stable_step_in_bed(double d, double d_mean, double density, double weight,
-                          const Material& material, double tangential_damping) {
+                          const Material& material, double tangential_damping, double spin) {
   constexpr int contacts = 6;
   const Elastic elastic{.youngs_modulus = material.youngs_modulus,
                         .poisson_ratio = material.poisson_ratio};
@@ -41,7 +43,7 @@ double stable_step_in_bed(double d, double d_mean, double density, double weight
   const double mass = density * std::numbers::pi / 6 * d * d * d;
   const double overlap = d_mean * overlap_at_rest(kLayersAtRest, d_mean, weight, material);
   const ContactStiffness k = law(d / 4, mass / 2, overlap);
-  return stable_step(contacts * k.k_t, contacts * k.gamma_t, kSpinInertia * mass);
+  return stable_step(contacts * k.k_t, contacts * k.gamma_t, spin * mass);
 }
 
 /// Longest grain step for one size of grains [s].
@@ -59,8 +61,9 @@ double limit_of(const SizeClass& size, double d_mean, const Config& config) {
                                          : 0;
   const double weight = std::abs(kind.density - around) * gravity;
   if (weight == 0 || kind.material.sliding_friction == 0) return rayleigh;
-  return std::min(rayleigh, 0.9 * stable_step_in_bed(size.diameter, d_mean, kind.density, weight,
-                                                     kind.material, grains.tangential_damping));
+  return std::min(
+      rayleigh, 0.9 * stable_step_in_bed(size.diameter, d_mean, kind.density, weight, kind.material,
+                                         grains.tangential_damping, inertia_of(kind.shape).spin));
 }
 
 double grain_step_limit(const Config& config, const std::vector<SizeClass>& sizes) {

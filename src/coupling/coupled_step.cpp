@@ -1,6 +1,7 @@
 #include "src/coupling/coupled_step.hpp"
 
 #include "kernels/coupling/frozen_grains.hpp"
+#include "src/coupling/grain_forces.hpp"
 #include "src/parallel/launch.hpp"
 
 namespace barchan {
@@ -105,7 +106,7 @@ void CoupledStep::gather(SystemState& state) {
   }
   if (!grains.fluid.has_fluid) return;
   Kokkos::parallel_for("grains: begin fluid step", items(grains.n),
-                       BeginFluidStep{grains.kin, grains.fluid});
+                       BeginFluidStep{kinematics_in_fluid(grains), grains.fluid});
 }
 
 void CoupledStep::move_grains(SystemState& state, int n) {

@@ -28,7 +28,7 @@ ForceArrays grain_forces(const SystemState& state, const GrainSolver& solver, Re
   } else if (grains.fluid.has_fluid) {
     const auto drag = grain_vector("drag", n), added = grain_vector("added mass", n);
     Kokkos::parallel_for("output: forces on grains", items(n),
-                         DragAndAddedMass{.grains = grains.kin,
+                         DragAndAddedMass{.grains = kinematics_in_fluid(grains),
                                           .on_grains = grains.fluid,
                                           .exchange = grains.exchange,
                                           .dt = dt,
@@ -54,6 +54,19 @@ ForceArrays grain_forces(const SystemState& state, const GrainSolver& solver, Re
   forces.contact_tangential = tangential;
   forces.total = resultant_force(grains, dt);
   return forces;
+}
+
+Kokkos::View<const GrainKinematics*> kinematics_in_fluid(const GrainState& grains) {
+  if (grains.clump.size() == 0) return grains.kin;
+  const Kokkos::View<GrainKinematics*> moved("kinematics of clumps", grains.kin.extent(0));
+  const auto kin = grains.kin;
+  const auto clump = grains.clump;
+  Kokkos::parallel_for(
+      "clumps: velocities in the fluid", items(grains.n), KOKKOS_LAMBDA(int g) {
+        moved(g) = kin(g);
+        moved(g).u = clump(g).u;
+      });
+  return moved;
 }
 
 ForceArrays of_whole_grains(const GrainState& grains, const ForceArrays& of_spheres) {

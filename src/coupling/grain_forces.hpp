@@ -22,6 +22,10 @@ struct ForceArrays {
 /// length of the fluid step [s].
 ForceArrays grain_forces(const SystemState& state, const GrainSolver& solver, Real dt);
 
+/// Kinematics of the entries that the fluid acts on; of a clump that is its first sphere, with the
+/// velocity of the whole.
+Kokkos::View<const GrainKinematics*> kinematics_in_fluid(const GrainState& grains);
+
 /// Sums over the spheres of each clump, in the order of whole_grains().
 ForceArrays of_whole_grains(const GrainState& grains, const ForceArrays& of_spheres);
 

@@ -71,6 +71,10 @@ bool has_clumps(const GrainConfig& grains) {
                              [](const KindConfig& kind) { return is_clump(kind.shape); });
 }
 
+int sphere_count(const ShapeConfig& shape) {
+  return is_clump(shape) ? static_cast<int>(spheres_of(shape).size()) : 1;
+}
+
 double width_of(const ShapeConfig& shape) { return 2 * shape_of(shape).bounding_radius; }
 
 double longest_arm(const GrainConfig& grains) {
@@ -84,11 +88,15 @@ double longest_arm(const GrainConfig& grains) {
   return longest;
 }
 
+InertiaInContacts inertia_of(const ShapeConfig& shape) {
+  if (!is_clump(shape)) return {};
+  return inertia_in_contacts(shape_of(shape).inertia.x, shape_of(shape).bounding_radius);
+}
+
 InertiaInContacts least_inertia_in_contacts(const GrainConfig& grains) {
   InertiaInContacts least;
   for (const KindConfig& kind : all_kinds(grains)) {
-    const ClumpShape& shape = shape_of(kind.shape);
-    const auto [slip, spin] = inertia_in_contacts(shape.inertia.x, shape.bounding_radius);
+    const auto [slip, spin] = inertia_of(kind.shape);
     least = {.slip = std::min(least.slip, slip), .spin = std::min(least.spin, spin)};
   }
   return least;

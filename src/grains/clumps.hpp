@@ -16,6 +16,8 @@ std::vector<ClumpSphere> spheres_of(const ShapeConfig& shape);
 /// Tells if grains of this shape are clumps; a clump of one sphere is a sphere.
 bool is_clump(const ShapeConfig& shape);
 bool has_clumps(const GrainConfig& grains);
+/// Number of spheres of a grain.
+int sphere_count(const ShapeConfig& shape);
 
 /// Diameter of the sphere around the grains of a kind, over that of the sphere of their volume.
 double width_of(const ShapeConfig& shape);
@@ -23,7 +25,9 @@ double width_of(const ShapeConfig& shape);
 /// the largest sphere of its kind.
 double longest_arm(const GrainConfig& grains);
 
-/// Inertia of the grains against forces along their surface, the least of all kinds.
+/// Inertia of grains of this shape against forces along their surface; the second function, the
+/// least of all kinds.
+InertiaInContacts inertia_of(const ShapeConfig& shape);
 InertiaInContacts least_inertia_in_contacts(const GrainConfig& grains);
 
 /// Shapes of all kinds for kernels.

@@ -34,12 +34,13 @@ std::string time_series(const char* name, const char* centre, const char* points
     if (content.empty()) continue;
     for (const auto& [array, info] : frame.arrays) {
       if (array == points) continue;
-      const bool vector = info.extents.size() == 2 && info.extents[1] == 3;
+      const char* type = info.extents.size() != 2 ? "Scalar"
+                         : info.extents[1] == 3   ? "Vector"
+                                                  : "Matrix";
       content += fmt::format(
           "        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n          {}\n"
           "        </Attribute>\n",
-          array, vector ? "Vector" : "Scalar", centre,
-          data_item(h5_name, frame.name + "/" + array, info));
+          array, type, centre, data_item(h5_name, frame.name + "/" + array, info));
     }
     grids += fmt::format(
         "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{:.10g}\"/>\n{}"

@@ -27,7 +27,7 @@ Config case_of(const std::string& lines) {
   return load_config_text(grain_case(lines), "case.toml");
 }
 
-TEST(Clumps, AreWrittenAsTheyAreRead) {
+TEST(ClumpsOfACase, AreWrittenAsTheyAreRead) {
   const Config c =
       case_of("shape = \"clump\"\nspheres = [[0.0, 0.0, 0.0, 1.0], [1.5, 0.0, 0.25, 0.75]]\n");
   const std::vector<ClumpSphere> two{{{0, 0, 0}, 1}, {{1.5, 0, 0.25}, 0.75}};
@@ -42,7 +42,7 @@ TEST(Clumps, AreWrittenAsTheyAreRead) {
   EXPECT_EQ(restart_conflicts(other, named).size(), 1u);
 }
 
-TEST(Clumps, AKindTakesItsShapeFromGrainsUnlessItHasItsOwn) {
+TEST(ClumpsOfACase, AKindTakesItsShapeFromGrainsUnlessItHasItsOwn) {
   const Config c = case_of(kCube +
                            "[[grains.kind]]\nname = \"a\"\n[[grains.kind]]\nname = \"b\"\n"
                            "spheres = [[0, 0, 0, 1], [1, 0, 0, 1]]\n"
@@ -58,7 +58,7 @@ TEST(Clumps, AKindTakesItsShapeFromGrainsUnlessItHasItsOwn) {
   EXPECT_DOUBLE_EQ(shapes.inertia[2].x, 0.1);  // 2/5 of 1/2 squared
 }
 
-TEST(Clumps, MistakesAreToldWhereTheyAre) {
+TEST(ClumpsOfACase, MistakesAreToldWhereTheyAre) {
   const auto tells = [](const std::string& lines, const std::string& line) {
     SCOPED_TRACE(lines);
     refused(grain_case(lines), "case.toml:" + line);
@@ -90,7 +90,7 @@ TEST(Clumps, MistakesAreToldWhereTheyAre) {
                  "clumps in water are not there yet"));
 }
 
-TEST(Clumps, ThoseWiderThanHalfAPeriodAreRefused) {
+TEST(ClumpsOfACase, ThoseWiderThanHalfAPeriodAreRefused) {
   Config c = case_of(
       "shape = \"clump\"\nspheres = [[0, 0, 0, 1], [2, 0, 0, 1], [4, 0, 0, 1], "
       "[6, 0, 0, 1]]\nboundary_x = \"periodic\"\n");
@@ -100,7 +100,7 @@ TEST(Clumps, ThoseWiderThanHalfAPeriodAreRefused) {
 }
 
 /// A clump of one sphere, wherever it stands, is a sphere: the same bits in each step.
-TEST(Clumps, OneSphereIsASphere) {
+TEST(ClumpsOfACase, OneSphereIsASphere) {
   Config c = grain_config();
   c.size = {3e-3, 5e-3, 3e-3};
   const InitialGrains grains = lattice_packing(200, c.size, 0.5);
@@ -118,7 +118,7 @@ TEST(Clumps, OneSphereIsASphere) {
   }
 }
 
-TEST(Clumps, SpheresHaveTheVolumeMassAndMotionOfTheirClump) {
+TEST(ClumpsOfACase, SpheresHaveTheVolumeMassAndMotionOfTheirClump) {
   const Config c = clump_config(NamedClump::tetrahedron);
   InitialGrains grains;
   add_grain(grains, 2e-4, {1e-3, 2e-3, 3e-3}, {0.1, 0, 0}, {0, 0, 100});
@@ -156,7 +156,7 @@ TEST(Clumps, SpheresHaveTheVolumeMassAndMotionOfTheirClump) {
 }
 
 /// Orientations are random ones of all directions, the same for a number wherever it stands.
-TEST(Clumps, OrientationsComeFromSeedAndNumber) {
+TEST(ClumpsOfACase, OrientationsComeFromSeedAndNumber) {
   const Config c = clump_config(NamedClump::dimer);
   InitialGrains grains;
   for (int g = 0; g < 4000; ++g) add_grain(grains, 1e-4, {1e-3, 1e-3, 1e-3});
@@ -177,7 +177,7 @@ TEST(Clumps, OrientationsComeFromSeedAndNumber) {
 }
 
 /// Pairs are all those of spheres of different clumps that are near each other, once.
-TEST(Clumps, ListHoldsThePairsOfOtherClumps) {
+TEST(ClumpsOfACase, ListHoldsThePairsOfOtherClumps) {
   Config c = clump_config(NamedClump::cube);
   c.size = {3e-3, 3e-3, 3e-3};
   c.grains->boundary_x = GrainBoundaryX::periodic;
@@ -203,7 +203,7 @@ TEST(Clumps, ListHoldsThePairsOfOtherClumps) {
 }
 
 /// Poured clumps do not reach into each other or the floor, however they are turned.
-TEST(Clumps, ArePouredByTheSpheresAroundThem) {
+TEST(ClumpsOfACase, ArePouredByTheSpheresAroundThem) {
   Config c = case_of(kCube);
   const std::vector<HeapConfig> heaps = poured_heaps(c);
   EXPECT_NEAR(poured_spacing(heaps[0].sizes), 1.01 * 2e-4 * width_of(c.grains->shape), 1e-12);
@@ -221,7 +221,7 @@ TEST(Clumps, ArePouredByTheSpheresAroundThem) {
 }
 
 /// Clumps beyond the outlet leave as a whole, once.
-TEST(Clumps, LeaveAsAWhole) {
+TEST(ClumpsOfACase, LeaveAsAWhole) {
   Config c = clump_config(NamedClump::cube);
   c.size = {3e-3, 3e-3, 3e-3};
   c.grains->boundary_x = GrainBoundaryX::exit;
