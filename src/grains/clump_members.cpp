@@ -41,10 +41,11 @@ ClumpMembers members_of(const GrainState& grains) {
       KOKKOS_LAMBDA(int p, int& sum) {
         const int first = entry(p);
         if (member_of_id(id(first)) != 0) return;
-        const int count = shapes.count(kind.extent(0) > 0 ? kind(first) : 0);
+        const int k = kind.extent(0) > 0 ? kind(first) : 0;
+        const int count = k < kMaxKinds ? shapes.count(k) : 0;  // a file may hold anything
         bool whole = p + count <= n;
-        for (int k = 0; whole && k < count; ++k)
-          whole = id(entry(p + k)) == id_of_member(id(first), k);
+        for (int member = 0; whole && member < count; ++member)
+          whole = id(entry(p + member)) == id_of_member(id(first), member);
         sum += whole ? count : 0;
       },
       n_in_clumps);

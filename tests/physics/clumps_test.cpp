@@ -165,6 +165,56 @@ TEST(Clumps, ASeamIsNowhere) {
   }
 }
 
+/// Cubes, dimers and spheres come to rest on a glued floor, between walls and on a body: together
+/// they press on these with their weight.
+TEST(Clumps, RestWithTheirWeightOnFloorWallsAndABody) {
+  Config c = grain_config();
+  c.size = {1.6e-3, 6e-3, 1.6e-3};
+  c.grains->boundary_x = GrainBoundaryX::wall;
+  c.grains->boundary_z = GrainBoundaryZ::wall;
+  c.grains->floor = GrainFloor::glued;
+  c.grains->floor_diameter = kD;
+  c.grains->gravity = {0, -9.81, 0};
+  c.grains->kinds.resize(3);
+  c.grains->kinds[0].name = "cube", c.grains->kinds[1].name = "dimer";
+  c.grains->kinds[2].name = "sphere";
+  c.grains->kinds[0].shape = {.shape = GrainShape::clump, .clump = NamedClump::cube};
+  c.grains->kinds[1].shape = {.shape = GrainShape::clump, .clump = NamedClump::dimer};
+  c.bodies = {{.name = "post",
+               .shape = BodyShape::of<shapes::Cylinder>(),
+               .centre = {8e-4, 8e-4},
+               .radius = 3e-4,
+               .height = 3e-4}};
+  c.time.grain_step = 1.25e-6;
+  InitialGrains grains;
+  for (int g = 0; g < 60; ++g) {
+    add_grain(grains, kD,
+              {3e-4 + 3.3e-4 * (g % 4), 8e-4 + 3.3e-4 * (g / 16), 3e-4 + 3.3e-4 * (g / 4 % 4)});
+    grains.kind.push_back(static_cast<std::uint8_t>(g % 3));
+  }
+  SystemState state;
+  state.grains = make_grain_state(as_spheres(grains, *c.grains, 3), densities_of(*c.grains));
+  CoupledStep step(c, state);
+  step.start(state);
+  for (int n = 0; n < 400; ++n) step.advance(state);
+  const GrainState whole = whole_grains(*state.grains);
+  const auto kin = host_copy(whole.kin);
+  const auto force = host_copy(whole.contact_force);
+  ASSERT_EQ(whole.n, 60);
+  Vec3 pressed;
+  Real weight = 0, fastest = 0;
+  for (int g = 0; g < whole.n; ++g) {
+    pressed += force(g);
+    weight += 9.81 * kin(g).m;
+    fastest = std::max(fastest, norm(kin(g).u));
+  }
+  EXPECT_LT(fastest, 1e-3);
+  EXPECT_NEAR(pressed.y / weight, 1, 0.01);
+  EXPECT_LT(std::hypot(pressed.x, pressed.z), 0.01 * weight);
+  const Vec3 on_post = step.grain_solver()->body_loads()[0].load.force;
+  EXPECT_LT(on_post.y, -0.02 * weight);
+}
+
 /// A sphere in still water as a clump of the same volume: weight, buoyancy, drag and added mass are
 /// those of the sphere.
 TEST(Clumps, SinkInStillWaterAsTheSphereOfTheirVolume) {
