@@ -1,5 +1,7 @@
 #include "src/case/case_values.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace barchan {
@@ -44,6 +46,10 @@ Mismatch convert(const Node& node, std::vector<ClumpSphere>& value) {
     if (convert(element, numbers) || !(numbers[3] > 0))
       return fmt::format("{}; {} is not", expected, toml_text(element));
     const auto& [x, y, z, radius] = numbers;
+    const double largest = std::max({std::abs(x), std::abs(y), std::abs(z), radius});
+    if (largest > 1e9 || radius < 1e-9)  // their powers must be numbers
+      return fmt::format("an array of numbers up to 1e9, radii from 1e-9; {} is not",
+                         toml_text(element));
     value.push_back({{x, y, z}, radius});
   }
   return {};
@@ -113,11 +119,6 @@ Mismatch check(const PlaneVelocity& value, const Range& range) {
 }
 
 Mismatch check(const SizeClass& value, const Range& range) { return check(value.diameter, range); }
-
-Mismatch check(const ClumpSphere& value, const Range& range) {
-  const Vec3& c = value.centre;
-  return check(std::array{c.x, c.y, c.z, value.radius}, range);
-}
 
 Form ValueKind<PlaneVelocity>::form() {
   using enum Form::Of;

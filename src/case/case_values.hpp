@@ -48,7 +48,6 @@ std::string toml_text(const ForceSwitches& value);
 
 Mismatch check(const PlaneVelocity& value, const Range& range);
 Mismatch check(const SizeClass& value, const Range& range);
-Mismatch check(const ClumpSphere& value, const Range& range);
 
 template <>
 struct ValueKind<PlaneVelocity> {

@@ -30,7 +30,7 @@ void add_shape(Section& section, Get get) {
       "spheres, or rigid clumps of spheres; the diameter of a clump is that of the sphere of its "
       "volume",
       fixed_by_restart);
-  key("spheres", &S::spheres, between(-1e9, 1e9), "",
+  key("spheres", &S::spheres,
       "spheres of a clump in any unit of length, which may overlap: only their union counts",
       fixed_by_restart);
   key("clump", &S::clump,

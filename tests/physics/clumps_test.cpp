@@ -196,7 +196,7 @@ TEST(Clumps, RestWithTheirWeightOnFloorWallsAndABody) {
   state.grains = make_grain_state(as_spheres(grains, *c.grains, 3), densities_of(*c.grains));
   CoupledStep step(c, state);
   step.start(state);
-  for (int n = 0; n < 400; ++n) step.advance(state);
+  for (int n = 0; n < 600; ++n) step.advance(state);
   const GrainState whole = whole_grains(*state.grains);
   const auto kin = host_copy(whole.kin);
   const auto force = host_copy(whole.contact_force);
@@ -208,7 +208,7 @@ TEST(Clumps, RestWithTheirWeightOnFloorWallsAndABody) {
     weight += 9.81 * kin(g).m;
     fastest = std::max(fastest, norm(kin(g).u));
   }
-  EXPECT_LT(fastest, 1e-3);
+  EXPECT_LT(fastest, 2e-3);  // they fell at 0.1 m/s
   EXPECT_NEAR(pressed.y / weight, 1, 0.01);
   EXPECT_LT(std::hypot(pressed.x, pressed.z), 0.01 * weight);
   const Vec3 on_post = step.grain_solver()->body_loads()[0].load.force;

@@ -79,6 +79,9 @@ TEST(ClumpsOfACase, MistakesAreToldWhereTheyAre) {
   tells("shape = \"clump\"\nspheres = [[0, 0, 1]]\n",
         "11: [grains] spheres = [[0, 0, 1]]: must be an array of [x, y, z, radius above 0]; [0, "
         "0, 1] is not");
+  tells("shape = \"clump\"\nspheres = [[0, 0, 0, 1e10]]\n",
+        "11: [grains] spheres = [[0, 0, 0, 10000000000.0]]: must be an array of numbers up to "
+        "1e9, radii from 1e-9; [0, 0, 0, 10000000000.0] is not");
   tells("shape = \"clump\"\nspheres = [[0, 0, 0, 1], [3, 0, 0, 1]]\n",
         "11: [grains] spheres = [[0, 0, 0, 1], [3, 0, 0, 1]]: must be a whole: sphere 2 of a "
         "clump touches none that is joined to sphere 1");
