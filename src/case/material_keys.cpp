@@ -1,5 +1,7 @@
 #include "src/case/material_keys.hpp"
 
+#include <algorithm>
+
 #include "src/case/case_values.hpp"
 
 namespace barchan {
@@ -36,6 +38,9 @@ void add_kinds(Sections& all) {
     auto* kinds = list(c);
     return kinds != nullptr && entry < kinds->size() ? &(*kinds)[entry].shape : nullptr;
   });
+  for (const char* name : {"shape", "spheres", "clump"})  // not those of [grains]
+    std::ranges::find(section.keys, name, &Key::name)->by_default =
+        name == std::string_view("shape") ? "sphere" : kNoDefault;
   key("sizes", &K::sizes, between(1e-9, 1e6), "m",
       "[[diameter, count], ...] of the grains of this kind to pour");
   section.append = [](Config& c) {
@@ -44,7 +49,6 @@ void add_kinds(Sections& all) {
     c.grains->kinds.push_back({.name = {},
                                .density = grains.density,
                                .material = grains.material,
-                               .shape = grains.shape,
                                .sizes = grains.sizes});
   };
 }

@@ -20,16 +20,10 @@ void check_absent(const ShapeConfig& shape, const std::string& section, Findings
   found.error_if(shape.clump.has_value(), {section + ".clump", of}, "{}", message);
 }
 
-/// Checks one shape; `common`: that of [grains], whose keys a kind takes over.
-void check_shape(ShapeConfig shape, const ShapeConfig& common, const std::string& section,
-                 Findings& found) {
+void check_shape(const ShapeConfig& shape, const std::string& section, Findings& found) {
+  if (shape.shape == GrainShape::sphere) return check_absent(shape, section, found);
   const std::string of = section + ".shape", spheres = section + ".spheres",
                     clump = section + ".clump";
-  if (shape.shape == GrainShape::sphere) {
-    if (shape.spheres == common.spheres) shape.spheres.clear();
-    if (shape.clump == common.clump) shape.clump.reset();
-    return check_absent(shape, section, found);
-  }
   const bool both = !shape.spheres.empty() && shape.clump;
   if (found.error_if(both, {spheres, clump}, "contradicts clump: give one of the two")) return;
   const std::vector<ClumpSphere> all = spheres_of(shape);
@@ -50,9 +44,12 @@ void check_shapes(const Config& c, Findings& found) {
   const GrainConfig& grains = *c.grains;
   const std::size_t before = found.all.size();
   const std::vector<KindConfig> kinds = all_kinds(grains);
-  if (grains.shape.shape == GrainShape::sphere) check_absent(grains.shape, "grains", found);
+  if (!grains.kinds.empty() &&
+      !found.error_if(grains.shape.shape != GrainShape::sphere, {"grains.shape", "grains.kind"},
+                      "must be absent: every [[grains.kind]] has its own"))
+    check_absent(grains.shape, "grains", found);
   for (std::size_t k = 0; k < kinds.size(); ++k)
-    check_shape(kinds[k].shape, grains.shape, section_of(grains, k), found);
+    check_shape(kinds[k].shape, section_of(grains, k), found);
   if (found.all.size() > before || !has_clumps(grains)) return;
   const auto first =
       std::ranges::find_if(kinds, [](const KindConfig& kind) { return is_clump(kind.shape); });

@@ -9,19 +9,7 @@
 namespace barchan {
 
 std::vector<KindConfig> all_kinds(const GrainConfig& grains) {
-  if (!grains.kinds.empty()) {
-    std::vector<KindConfig> kinds = grains.kinds;
-    for (KindConfig& kind : kinds) {  // its own way of saying a shape counts
-      ShapeConfig& shape = kind.shape;
-      if (shape.spheres.empty() || !shape.clump) continue;
-      if (shape.clump == grains.shape.clump) {
-        shape.clump.reset();
-      } else if (shape.spheres == grains.shape.spheres) {
-        shape.spheres.clear();
-      }
-    }
-    return kinds;
-  }
+  if (!grains.kinds.empty()) return grains.kinds;
   return {{.name = {},
            .density = grains.density,
            .material = grains.material,

@@ -16,6 +16,8 @@ namespace barchan {
 
 /// Word for a value that the program is to choose.
 inline constexpr const char* kAutomatic = "auto";
+/// Word for the default of a key that has none, in a section that is like another one.
+inline constexpr const char* kNoDefault = "none";
 
 struct Key {
   std::string section, name;

@@ -30,7 +30,9 @@ std::string domain_in_table(const Key& key) {
 /// Default in words: "required", "none", "as in `[grains]`" or the value in backticks.
 std::string default_of(const Section& section, const Key& key, const Config& defaults) {
   if (key.required) return "required";
-  if (!section.like.empty()) return fmt::format("as in `[{}]`", section.like);
+  if (key.by_default == kNoDefault) return "none";
+  if (!section.like.empty() && key.by_default.empty())
+    return fmt::format("as in `[{}]`", section.like);
   if (key.by_default.starts_with('[')) return fmt::format("`{}`", key.by_default);
   if (!key.by_default.empty()) return fmt::format("`\"{}\"`", key.by_default);
   const std::string value = key.text(defaults, 0).value_or("");

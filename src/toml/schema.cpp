@@ -76,13 +76,15 @@ Json schema_of(const Section& section, const Key& key, const Config& defaults) {
   Json value = schema_of(key, key.form);
   if (key.by_default == kAutomatic) value = one_of({value, {{"enum", Json::array({kAutomatic})}}});
   const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
-  const std::string like =
-      section.like.empty() ? "" : fmt::format("; default as in `[{}]`", section.like);
+  const std::string like = section.like.empty() || !key.by_default.empty()
+                               ? ""
+                               : fmt::format("; default as in `[{}]`", section.like);
   value["description"] = key.meaning + unit + like;
   const std::string text = key.text(defaults, 0).value_or("");
   const Json preset = key.by_default.empty() ? Json::parse(text, nullptr, false)
                                              : Json(key.by_default);  // values of TOML are of JSON
-  const bool none = preset.is_discarded() || preset == "" || preset == Json::array();
+  const bool none = key.by_default == kNoDefault || preset.is_discarded() || preset == "" ||
+                    preset == Json::array();
   if (like.empty() && !key.required && !none) value["default"] = preset;
   return value;
 }

@@ -147,7 +147,7 @@ Config cubes_config(double end) {
   c.grains.emplace();
   c.grains->boundary_x = GrainBoundaryX::periodic;
   c.grains->shape = {.shape = GrainShape::clump, .clump = NamedClump::cube};
-  c.grains->sizes = {{2e-4, 40}};
+  c.grains->sizes = {{2e-4, 24}};
   c.grains->material.restitution = c.grains->wall.restitution = 0.2;
   c.initial.pour.emplace();
   c.initial.pour->centre = {0.006, 0.003};
@@ -176,7 +176,7 @@ std::filesystem::path run(const Config& config, const std::filesystem::path& fol
 TEST(ClumpsOverRanks, CubesComeToRestAndARestartKeepsTheBits) {
   if (rank_count(MPI_COMM_WORLD) > 2) GTEST_SKIP() << "on 1 and 2 ranks";
   const test::SharedFolder folder;
-  const Config whole = cubes_config(0.08), half = cubes_config(0.02);
+  const Config whole = cubes_config(0.12), half = cubes_config(0.03);
   const auto at_once = run(whole, folder.path() / "whole");
   const auto middle = run(half, folder.path() / "parts");
   const auto in_parts = run(whole, folder.path() / "parts", middle);
@@ -185,7 +185,7 @@ TEST(ClumpsOverRanks, CubesComeToRestAndARestartKeepsTheBits) {
   const Hdf5File file(at_once, Hdf5File::Mode::read);
   const auto clumps = file.read<double>("grains/clump");
   const auto ids = file.read<std::int64_t>("grains/id");
-  ASSERT_EQ(ids.size(), 8u * 40);
+  ASSERT_EQ(ids.size(), 8u * 24);
   int heads = 0;
   Real fastest = 0, highest = 0, momentum = 0, mass = 0;
   for (std::size_t e = 0; e < ids.size(); ++e) {
@@ -197,13 +197,13 @@ TEST(ClumpsOverRanks, CubesComeToRestAndARestartKeepsTheBits) {
     highest = std::max(highest, c.x.y);
     momentum += norm(c.j), mass += c.m;
   }
-  EXPECT_EQ(heads, 40);
+  EXPECT_EQ(heads, 24);
   // A case may start from the grains of either file.
   const InitialGrains of_restart = read_grains(at_once),
                       of_frame = read_grains(folder.path() / "whole" / "grains.h5");
-  ASSERT_EQ(of_restart.size(), 40u);
+  ASSERT_EQ(of_restart.size(), 24u);
   ASSERT_EQ(of_frame.id, of_restart.id);
-  for (std::size_t g = 0; g < 40; ++g) {
+  for (std::size_t g = 0; g < 24; ++g) {
     EXPECT_EQ(of_restart.diameter[g], 2e-4);
     EXPECT_EQ(of_frame.diameter[g], 2e-4);
     EXPECT_EQ(norm(of_frame.x[g] - of_restart.x[g]), 0);

@@ -42,12 +42,16 @@ TEST(ClumpsOfACase, AreWrittenAsTheyAreRead) {
   EXPECT_EQ(restart_conflicts(other, named).size(), 1u);
 }
 
-TEST(ClumpsOfACase, AKindTakesItsShapeFromGrainsUnlessItHasItsOwn) {
-  const Config c = case_of(kCube +
-                           "[[grains.kind]]\nname = \"a\"\n[[grains.kind]]\nname = \"b\"\n"
+TEST(ClumpsOfACase, EachKindHasItsOwnShape) {
+  const Config c = case_of("[[grains.kind]]\nname = \"a\"\n" + kCube +
+                           "[[grains.kind]]\nname = \"b\"\nshape = \"clump\"\n"
                            "spheres = [[0, 0, 0, 1], [1, 0, 0, 1]]\n"
-                           "[[grains.kind]]\nname = \"c\"\nshape = \"sphere\"\n");
+                           "[[grains.kind]]\nname = \"c\"\n");
+  refused(grain_case(kCube + "[[grains.kind]]\nname = \"a\"\nshape = \"sphere\"\n"),
+          "case.toml:10: [grains] shape = \"clump\": must be absent: every [[grains.kind]] has its "
+          "own");
   const std::vector<KindConfig> kinds = all_kinds(*c.grains);
+  EXPECT_EQ(config_as_written(to_toml(c), "case.toml").grains->kinds, c.grains->kinds);
   EXPECT_EQ(spheres_of(kinds[0].shape).size(), 8u);
   EXPECT_EQ(spheres_of(kinds[1].shape).size(), 2u);
   EXPECT_FALSE(is_clump(kinds[2].shape));
