@@ -62,7 +62,7 @@ struct KindConfig {
   std::string name;              // required
   double density = 2500;         // [kg/m^3]; this and what follows default to that of [grains]
   Material material;             // keys directly in [[grains.kind]]
-  ShapeConfig shape = {};        // likewise
+  ShapeConfig shape = {};        // likewise; not as in [grains]
   std::vector<SizeClass> sizes;  // for `pour`
   bool operator==(const KindConfig&) const = default;
 };
