@@ -184,8 +184,7 @@ void add_initial(Sections& all) {
   key("window", &I::window, any, "m",
       "[x, z]: place of this box in that of the cases of `fluid` and `grains`, of which it is a "
       "part");
-  key("seed", &I::seed,
-      "random seed of the perturbations of \"turbulent\", and of the orientations of clumps");
+  key("seed", &I::seed, "random seed of \"turbulent\", and of the orientations of clumps");
   key("realisation", &I::realisation, between(1, 1000000), "",
       "member of an ensemble: another packing, another turbulent flow");
 }
