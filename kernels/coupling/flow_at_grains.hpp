@@ -145,17 +145,18 @@ struct FlowOverCells {
   bool with_pressure = false, with_stress = false;
   CellVectorRef pressure{}, stress{};
   Kokkos::View<const GrainKinematics*> grains;
+  Kokkos::View<const PartOfClump*> part;  // empty: all grains are spheres
   FlowAtGrains flow;
   KOKKOS_FUNCTION void operator()(int g) const { (*this)(g, stencil(grains(g))); }
   KOKKOS_INLINE_FUNCTION void operator()(int g, const GrainCells& cells) const {
-    const Real volume = sphere_volume(grains(g).r);
+    const Real whole = volume_of_grain(g);
     Real most = 0, mean = 0, own = 0;
     Vec3 of_pressure, of_stress;
     for (int q = 0; q < cells.n; ++q) {
       const CellIndex c = cells.cell[q];
       const Real w = cells.weight(q), here = alpha_raw(c.i, c.j, c.k);
       mean += w * here;
-      own += w * w * volume / stencil.grid.cell_volume(c.j);
+      own += w * w * whole / stencil.grid.cell_volume(c.j);
       most = Kokkos::max(most, (1 - here) / Kokkos::max(alpha_f(c.i, c.j, c.k), Real(1e-3)));
       if (with_pressure) of_pressure += w * pressure(c);
       if (with_stress) of_stress += w * stress(c);
@@ -165,6 +166,12 @@ struct FlowOverCells {
     flow.solid_per_fluid(g) = most;
     if (with_pressure) flow.pressure(g) = of_pressure;
     if (with_stress) flow.stress(g) = of_stress;
+  }
+
+ private:
+  /// Volume of a grain; all spheres of a clump count as if they lay in the cells of this one [m^3].
+  KOKKOS_FORCEINLINE_FUNCTION Real volume_of_grain(int g) const {
+    return sphere_volume(part.extent(0) > 0 ? part(g).d / 2 : grains(g).r);
   }
 };
 

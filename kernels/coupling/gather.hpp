@@ -4,6 +4,7 @@
 
 #include "kernels/coupling/drag.hpp"
 #include "kernels/coupling/flow_at_grains.hpp"
+#include "kernels/coupling/shape_drag.hpp"
 #include "kernels/coupling/shear_forces.hpp"
 #include "kernels/coupling/sphere_in_fluid.hpp"
 #include "kernels/grains/sphere.hpp"
@@ -37,6 +38,7 @@ struct GatherFluid {
   Real dt = 0;
   SubmergedWeight weight;
   FluidForces forces;
+  ShapeFactor shape;
   Kokkos::View<const GrainKinematics*> grains;
   FlowAtGrains flow_at;
   FluidOnGrains on_grains;
@@ -72,8 +74,12 @@ struct GatherFluid {
                          .rho_f = rho_f,
                          .mu_f = mu_f,
                          .slip = flow_at.slip(g),
-                         .d_p = 2 * grain.r};
-    const Real beta = Real(forces.drag) * flow_at.factor(g) * law(flow);
+                         .d_p = 2 * on_grains.radius(g, grain)};
+    Real beta = Real(forces.drag) * flow_at.factor(g) * law(flow);
+    if (on_grains.part.extent(0) > 0) {
+      const PartOfClump part = on_grains.part(g);
+      beta *= part.share * shape(flow, part, flow_at.u(g) - grain.u);
+    }
     return forces.wall_drag ? beta * floor_drag_factor(flow, grain.x.y - grain.r) : beta;
   }
 };

@@ -19,18 +19,20 @@ struct GatherShear {
   ExchangeOnGrains exchange;
 
   KOKKOS_FUNCTION void operator()(int g) const {
-    const GrainKinematics& grain = grains(g);
+    GrainKinematics grain = grains(g);
+    grain.r = on_grains.radius(g, grain);
     const Vec3 vorticity = flow_at.vorticity(g);
     const Real alpha = limited_fraction(flow_at.alpha_o(g));
     if (lift) {
-      const Vec3 force = lift_on(grain, on_grains.u_f(g) - grain.u, vorticity, alpha);
+      const Vec3 force =
+          on_grains.share(g) * lift_on(grain, on_grains.u_f(g) - grain.u, vorticity, alpha);
       exchange.lift(g) = force;
       on_grains.explicit_force(g) += force;
     }
     if (torque) {
       const Vec3 omega_f = Real(0.5) * vorticity;
       on_grains.omega_f(g) = omega_f;
-      on_grains.beta_r(g) = torque_among_grains(alpha) *
+      on_grains.beta_r(g) = on_grains.share(g) * torque_among_grains(alpha) *
                             rotational_drag(rho_f, mu_f, 2 * grain.r, norm(omega_f - grain.omega));
     }
   }

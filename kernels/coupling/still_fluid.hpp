@@ -1,30 +1,31 @@
 // Grains without a flow solver: in still fluid, or in a vacuum.
 #pragma once
 
-#include "kernels/coupling/drag.hpp"
+#include "kernels/coupling/shape_drag.hpp"
 #include "kernels/coupling/sphere_in_fluid.hpp"
-#include "kernels/grains/clump.hpp"
+#include "kernels/grains/clump_motion.hpp"
 #include "kernels/grains/fluid_on_grains.hpp"
 #include "kernels/grains/sphere.hpp"
 
 namespace barchan {
 
 /// Still, unbounded fluid around the grains: weight, buoyancy, Schiller-Naumann drag, added mass.
-/// Where there is no fluid: weight alone. A clump is taken as the sphere of its volume; all acts on
-/// its first sphere.
+/// Where there is no fluid: weight alone. A clump has the drag of its shape, the rest of the sphere
+/// of its volume; all acts on its first sphere.
 struct GatherStillFluid {
   Real rho_f = 0, mu_f = 0;
   SubmergedWeight weight;
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
-  Kokkos::View<const ClumpMotion*> clump = {};  // empty: all grains are spheres
-  Kokkos::View<const std::int64_t*> id = {};    // read with clumps
+  ClumpsOfGrains clumps = {};                 // no motion: all grains are spheres
+  Kokkos::View<const std::int64_t*> id = {};  // read with clumps
 
   KOKKOS_FUNCTION void operator()(int g) const {
     GrainKinematics grain = grains(g);
-    if (clump.extent(0) > 0) {
+    const bool is_clump = clumps.motion.extent(0) > 0;
+    if (is_clump) {
       if (member_of_id(id(g)) > 0) return clear(g);
-      grain.r = clump(g).d / 2, grain.u = clump(g).u;
+      grain.r = clumps.motion(g).d / 2, grain.u = clumps.motion(g).u;
     }
     on_grains.explicit_force(g) = weight(grain);
     if (!on_grains.has_fluid) return;
@@ -33,6 +34,10 @@ struct GatherStillFluid {
     on_grains.u_f(g) = on_grains.acceleration(g) = Vec3{};
     on_grains.inv_fluid_mass(g) = 0;
     on_grains.beta(g) = SchillerNaumann{}(flow);
+    if (is_clump) {
+      const PartOfClump whole = clumps.part(clumps.motion(g), clumps.kind_of(g), 0);
+      on_grains.beta(g) *= ShapeFactor{}(flow, whole, grain.u);
+    }
     on_grains.added_mass(g) = sphere_added_mass(rho_f, sphere_volume(grain.r));
   }
 

@@ -41,13 +41,32 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr std::int64_t id_of_member(std::int64_t clu
 struct ClumpShapes {
   int first[kMaxKinds + 1] = {};          // first sphere of each kind in `sphere`
   Vec3 inertia[kMaxKinds] = {};           // principal moments
+  Vec3 shadows[kMaxKinds] = {};           // areas seen along the principal axes
+  Real sphericity[kMaxKinds] = {};        // surface of the sphere of its volume over its own
   Kokkos::View<const Vec4*> sphere = {};  // centre and radius
+  Kokkos::View<const Real*> share = {};   // of each sphere in the volume
 
   KOKKOS_FORCEINLINE_FUNCTION int count(int kind) const { return first[kind + 1] - first[kind]; }
+  /// Largest number of spheres of a grain.
+  KOKKOS_FUNCTION int most() const {
+    int most = 0;
+    for (int k = 0; k < kMaxKinds; ++k) most = Kokkos::max(most, count(k));
+    return most;
+  }
   /// Centre of a sphere in the principal frame.
   KOKKOS_FORCEINLINE_FUNCTION Vec3 centre(int kind, int member) const {
     return sphere(first[kind] + member).vec();
   }
+};
+
+/// Sphere of a clump as the flow meets it: a part of the clump's volume.
+struct alignas(32) PartOfClump {
+  Quaternion q;         // orientation of the clump
+  Vec3 shadows;         // areas that the clump has along its principal axes, for d = 1
+  Real sphericity = 1;  // of the clump
+  Real d = 0;           // diameter of the sphere of the clump's volume [m]
+  Real share = 1;       // of the part in that volume
+  Real rest[2] = {};    // not used
 };
 
 /// Entries of the spheres of each clump, the clumps in the order of their first spheres.

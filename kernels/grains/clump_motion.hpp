@@ -20,15 +20,24 @@ struct ClumpsOfGrains {
   Kokkos::View<ClumpMotion*> motion;
   Kokkos::View<const std::uint8_t*> kind;  // kinds of the entries; empty: one kind
 
-  KOKKOS_FORCEINLINE_FUNCTION int head(int clump) const {
-    return members.entry(members.first(clump));
+  KOKKOS_FORCEINLINE_FUNCTION int entry(int clump, int member) const {
+    return members.entry(members.first(clump) + member);
   }
+  KOKKOS_FORCEINLINE_FUNCTION int head(int clump) const { return entry(clump, 0); }
   KOKKOS_FORCEINLINE_FUNCTION int kind_of(int entry) const {
     return kind.extent(0) > 0 ? kind(entry) : 0;
   }
   /// Vector from the centre of a clump to that of one of its spheres [m].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 arm(const ClumpMotion& c, int of_kind, int member) const {
     return c.d * rotate(c.q, shapes.centre(of_kind, member));
+  }
+  KOKKOS_FORCEINLINE_FUNCTION PartOfClump part(const ClumpMotion& c, int of_kind,
+                                               int member) const {
+    return {.q = c.q,
+            .shadows = shapes.shadows[of_kind],
+            .sphericity = shapes.sphericity[of_kind],
+            .d = c.d,
+            .share = shapes.share(shapes.first[of_kind] + member)};
   }
   /// Principal moments of inertia [kg m^2].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 inertia(const ClumpMotion& c, int of_kind) const {
@@ -44,7 +53,7 @@ struct ClumpsOfGrains {
                                              const Kokkos::View<const Vec3*>& torque) const {
     ClumpForce sum{};
     for (int k = 0; k < shapes.count(of_kind); ++k) {
-      const int e = members.entry(members.first(clump) + k);
+      const int e = entry(clump, k);
       sum.force += force(e);
       sum.torque += torque(e) + cross(arm(c, of_kind, k), force(e));
     }
@@ -86,7 +95,7 @@ struct MoveClumps {
     const int head = clumps.head(clump), kind = clumps.kind_of(head);
     ClumpMotion c = clumps.motion(head);
     const ClumpForce contacts = clumps.sum(clump, c, kind, contact_force, contact_torque);
-    kick(head, contacts, c);
+    kick(head, kind, contacts, c);
     if constexpr (moves != Moves::out_of_last) {
       c.x = fma(dt, c.u, c.x);
       c.q = rotate_freely_near_sphere(c.q, clumps.inertia(c, kind), c.j, dt);
@@ -96,12 +105,13 @@ struct MoveClumps {
   }
 
  private:
-  /// Half a kick, or two: the end of one grain step and the start of the next.
-  KOKKOS_FORCEINLINE_FUNCTION void kick(int head, const ClumpForce& contacts,
+  /// Half a kick, or two: the end of one grain step and the start of the next. The torque of a
+  /// fluid is that on the sphere of the clump's volume.
+  KOKKOS_FORCEINLINE_FUNCTION void kick(int head, int kind, const ClumpForce& contacts,
                                         ClumpMotion& c) const {
     GrainForces f{};
     f.force = contacts.force + fluid.explicit_force(head);
-    MotionCoefficients coefficients{.mass = c.m, .inertia_moment = 1};
+    MotionCoefficients coefficients{.mass = c.m, .inertia_moment = sphere_inertia(c.m, c.d / 2)};
     if (fluid.has_fluid) {
       f.u_f = fluid.u_f_after(elapsed, head);
       f.acceleration = fluid.acceleration(head);
@@ -109,11 +119,18 @@ struct MoveClumps {
       coefficients.beta = fluid.beta(head);
       coefficients.added_mass = fluid.added_mass(head);
     }
+    Vec3 spin;
+    if (fluid.has_torque) {
+      spin = clumps.spin(c, kind);
+      f.omega_f = fluid.omega_f(head);
+      coefficients.beta_r = fluid.beta_r(head);
+    }
+    const Vec3 spin_before = spin;
     const HalfKick half_kick(dt / 2, coefficients);
-    Vec3 no_spin{};
-    Vec3 impulse = half_kick(f, c.u, no_spin);
-    if constexpr (moves == Moves::between) impulse += half_kick(f, c.u, no_spin);
+    Vec3 impulse = half_kick(f, c.u, spin);
+    if constexpr (moves == Moves::between) impulse += half_kick(f, c.u, spin);
     c.j = fma(moves == Moves::between ? dt : dt / 2, contacts.torque, c.j);
+    if (fluid.has_torque) c.j += coefficients.inertia_moment * (spin - spin_before);
     if (fluid.has_fluid) fluid.impulse(head) += impulse;
   }
 
@@ -121,7 +138,7 @@ struct MoveClumps {
                                                 Real& largest) const {
     const Vec3 omega = clumps.spin(c, kind);
     for (int k = 0; k < clumps.shapes.count(kind); ++k) {
-      const int e = clumps.members.entry(clumps.members.first(clump) + k);
+      const int e = clumps.entry(clump, k);
       GrainKinematics& sphere = grains(e);
       const Vec3 arm = clumps.arm(c, kind, k);
       sphere.u = c.u + cross(omega, arm);

@@ -1,7 +1,7 @@
 // Action of the fluid on each grain over a fluid step, and the reaction of the grain.
 #pragma once
 
-#include "kernels/grains/grain.hpp"
+#include "kernels/grains/clump.hpp"
 
 namespace barchan {
 
@@ -22,6 +22,8 @@ struct FluidOnGrains {
   Kokkos::View<Vec3*> explicit_torque;  // torque of a resolved flow [N m]; else empty
   // spin as the fluid step began [rad/s], and its change over the one before [rad/s^2]; likewise
   Kokkos::View<Vec3*> spin_start, spin_acceleration;
+  // of the clump that a sphere belongs to; empty: all grains are spheres
+  Kokkos::View<PartOfClump*> part;
   bool has_fluid = false;    // without fluid, only explicit_force is set
   bool has_torque = false;   // torque of the fluid: omega_f and beta_r are set
   bool is_resolved = false;  // explicit_force and explicit_torque are all there is
@@ -29,6 +31,14 @@ struct FluidOnGrains {
   /// Velocity of the fluid that the grain carries along, `elapsed` [s] into the fluid step [m/s].
   KOKKOS_FORCEINLINE_FUNCTION Vec3 u_f_after(Real elapsed, int g) const {
     return u_f(g) + elapsed * acceleration(g) - inv_fluid_mass(g) * impulse(g);
+  }
+  /// Radius of the grain that drag, lift and torque act on, as a sphere of its volume [m].
+  KOKKOS_FORCEINLINE_FUNCTION Real radius(int g, const GrainKinematics& grain) const {
+    return part.extent(0) > 0 ? part(g).d / 2 : grain.r;
+  }
+  /// Share of an entry in its grain.
+  KOKKOS_FORCEINLINE_FUNCTION Real share(int g) const {
+    return part.extent(0) > 0 ? part(g).share : Real(1);
   }
 };
 
@@ -50,9 +60,10 @@ struct ExchangeOnGrains {
 struct BeginFluidStep {
   Kokkos::View<const GrainKinematics*> grains;
   FluidOnGrains on_grains;
+  Kokkos::View<const ClumpMotion*> clump = {};  // empty: all grains are spheres
   KOKKOS_FUNCTION void operator()(int g) const {
     on_grains.impulse(g) = Vec3{};
-    on_grains.u_start(g) = grains(g).u;
+    on_grains.u_start(g) = clump.extent(0) > 0 ? clump(g).u : grains(g).u;
     if (on_grains.is_resolved) on_grains.spin_start(g) = grains(g).omega;
   }
 };

@@ -20,6 +20,7 @@ from validation import bed_load
 from validation import cfdem
 from validation import channel
 from validation import contacts
+from validation import corners
 from validation import dem_cases
 from validation import dune_window
 from validation import field_cases
@@ -51,10 +52,11 @@ FIGURES = {
     dune_window.NAME: dune_window.draw,
     dem_cases.NAME: dem_cases.draw,
     field_cases.NAME: field_cases.draw,
+    corners.NAME: corners.draw,
 }
 STUDIES = {module.NAME: module
            for module in (bed_load, threshold, laminar_bed, resolved_bed, resolved_load, resolved_spheres, dune_window,
-                          dem_cases, field_cases)}
+                          dem_cases, field_cases, corners)}
 
 
 def parse(arguments):

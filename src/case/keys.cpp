@@ -144,6 +144,7 @@ void add_coupling(Sections& all) {
            [](auto& c) { return &c.coupling; });
   using C = CouplingConfig;
   key("drag", &C::drag, "drag law");
+  key("shape_drag", &C::shape_drag, "drag of clumps, as a factor on that of a sphere");
   key("scheme", &C::scheme,
       "exchange of momentum: layer by layer over the height of a grain; with the flow interpolated "
       "to its centre; likewise, then smoothed; as in CFDEM; or none: the flow is resolved around "

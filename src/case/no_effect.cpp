@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "src/grains/clumps.hpp"
 #include "src/toml/keys.hpp"
 
 namespace barchan {
@@ -49,6 +50,8 @@ constexpr Need kNeeds[] = {
     {"coupling.drag", "coupling.forces", [](const Config& c) { return c.coupling.forces.drag; },
      "must be absent without \"drag\" in coupling.forces"},
     {"coupling.drag", "coupling.scheme", is_unresolved, kWhereResolved},
+    {"coupling.shape_drag", "grains.shape", [](const Config& c) { return has_clumps(*c.grains); },
+     "must be absent unless shape = \"clump\""},
     {"coupling.forces", "coupling.scheme", is_unresolved, kWhereResolved},
     {"coupling.smoothing_length", "coupling.scheme", is_unresolved, kWhereResolved},
     {"coupling.alpha_time_derivative", "coupling.scheme", is_unresolved, kWhereResolved},

@@ -55,8 +55,8 @@ void check_shapes(const Config& c, Findings& found) {
       std::ranges::find_if(kinds, [](const KindConfig& kind) { return is_clump(kind.shape); });
   const std::string key =
       section_of(grains, static_cast<std::size_t>(first - kinds.begin())) + ".shape";
-  found.error_if(c.fluid.has_value(), {key, "fluid"},
-                 "must be \"sphere\" with [fluid]: clumps in water are not there yet");
+  found.error_if(c.fluid && c.coupling.scheme == CouplingScheme::resolved, {key, "coupling.scheme"},
+                 "must be \"sphere\" with scheme = \"resolved\", whose markers lie on spheres");
   found.error_if(grains.feed.has_value(), {key, "grains.feed.amount"},
                  "must be \"sphere\" with [grains.feed], which brings in spheres alone");
 }

@@ -56,6 +56,7 @@ void CentredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
                                      .alpha_f = fluid.alpha_f,
                                      .alpha_raw = fields_.raw_fraction(fluid),
                                      .grains = grains.kin,
+                                     .part = grains.fluid.part,
                                      .flow = gather_.flow()});
   Kokkos::parallel_for(
       "coupling: flow at grains", items(grains.n),

@@ -1,7 +1,7 @@
 #include "src/coupling/coupled_step.hpp"
 
 #include "kernels/coupling/frozen_grains.hpp"
-#include "src/coupling/grain_forces.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/parallel/launch.hpp"
 
 namespace barchan {
@@ -50,10 +50,12 @@ CoupledStep::CoupledStep(const CoupledCase& config, SystemState& state)
     add_fluid(*state.grains);
     const CouplingConfig& coupling = config.coupling;
     add_exchange(*state.grains, coupling.forces);
+    if (state.grains->clump.size() > 0) add_parts(*state.grains);
     if (coupling.scheme == CouplingScheme::resolved)
       (frozen_ ? add_resolved_forces : add_immersed)(*state.grains);
     if (!is_immersed(coupling, grains))  // whose scheme finds the grains of other ranks
-      fluid_side_ = FluidSideGrains(state.fluid->grid, is_periodic_x(grains), coupling.forces);
+      fluid_side_ =
+          FluidSideGrains(state.fluid->grid, is_periodic_x(grains), *state.grains, coupling.forces);
     exchange_ = make_exchange_scheme(config, *fluid_, *state.grains, state.fluid->grid);
     grains_->list().use_scratch(ScratchMemory(fluid_->workspace().of_any_bits()));
   } else if (grains.ambient) {
@@ -76,7 +78,8 @@ void CoupledStep::start(SystemState& state) {
   }
   if (grains_) grains_->start(*state.grains);
   if (exchange_)
-    exchange_->start(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid);
+    exchange_->start(fluid_side_.to_fluid_ranks(clumps_.parts(*state.grains), kDepositReads),
+                     *state.fluid);
   if (!fluid_) return;
   fluid_->fill_ghosts(*state.fluid);
   fluid_->flow_around_bodies(*state.fluid);
@@ -95,18 +98,20 @@ void CoupledStep::gather(SystemState& state) {
   GrainState& grains = *state.grains;
   const PhaseTimer timer(phases_, exchange_ ? "exchange" : "grains");
   if (exchange_) {
-    exchange_->gather(*state.fluid, fluid_side_.to_fluid_ranks(grains, kGatherReads), dt_);
-    fluid_side_.to_grain_ranks(grains, kGatherWrites);
+    GrainState& parts = clumps_.parts(grains);
+    exchange_->gather(*state.fluid, fluid_side_.to_fluid_ranks(parts, kGatherReads), dt_);
+    fluid_side_.to_grain_ranks(parts, kGatherWrites);
+    ClumpsInFlow::join(grains);
   } else {
     still_.grains = grains.kin;
     still_.on_grains = grains.fluid;
-    still_.clump = grains.clump;
+    if (grains.clump.size() > 0) still_.clumps = clumps_of(grains);
     still_.id = grains.id;
     Kokkos::parallel_for("grains: still fluid", items(grains.n), still_);
   }
   if (!grains.fluid.has_fluid) return;
   Kokkos::parallel_for("grains: begin fluid step", items(grains.n),
-                       BeginFluidStep{kinematics_in_fluid(grains), grains.fluid});
+                       BeginFluidStep{grains.kin, grains.fluid, grains.clump});
 }
 
 void CoupledStep::move_grains(SystemState& state, int n) {
@@ -125,7 +130,9 @@ void CoupledStep::move_grains(SystemState& state, int n) {
 void CoupledStep::deposit(SystemState& state) {
   if (!exchange_) return;
   const PhaseTimer timer(phases_, "deposit");
-  exchange_->deposit(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid, dt_);
+  ClumpsInFlow::split(*state.grains);
+  const GrainState& parts = clumps_.parts(*state.grains);
+  exchange_->deposit(fluid_side_.to_fluid_ranks(parts, kDepositReads), *state.fluid, dt_);
 }
 
 void CoupledStep::advance_fluid(SystemState& state) {

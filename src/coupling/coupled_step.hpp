@@ -7,6 +7,7 @@
 
 #include "kernels/coupling/still_fluid.hpp"
 #include "src/base/stopwatch.hpp"
+#include "src/coupling/clumps_in_flow.hpp"
 #include "src/coupling/coupling_case.hpp"
 #include "src/coupling/exchange_scheme.hpp"
 #include "src/coupling/fluid_side_grains.hpp"
@@ -69,6 +70,7 @@ class CoupledStep {
   std::unique_ptr<GrainSolver> grains_;
   std::optional<GrainFeed> feed_;
   std::unique_ptr<ExchangeScheme> exchange_;
+  ClumpsInFlow clumps_;
   FluidSideGrains fluid_side_;
   FluidStepReport fluid_report_;
   Ledger ledger_;

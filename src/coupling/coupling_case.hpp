@@ -1,7 +1,7 @@
 // Keys of a case about the forces between grains and flow.
 #pragma once
 
-#include "kernels/coupling/drag.hpp"
+#include "kernels/coupling/shape_drag.hpp"
 #include "src/base/time_case.hpp"
 #include "src/fluid/fluid_case.hpp"
 #include "src/grains/grains_case.hpp"
@@ -9,6 +9,7 @@
 namespace barchan {
 
 using DragLaw = Choice<DragLaws>;
+using ShapeDragLaw = Choice<ShapeDragLaws>;
 enum class VoidFraction { divided, centre };
 enum class CouplingScheme { layered, centred, smoothed, cfdem, resolved };
 
@@ -27,6 +28,7 @@ struct CfdemConfig {
 /// [coupling]
 struct CouplingConfig {
   DragLaw drag = DragLaw::of<Gidaspow>();
+  ShapeDragLaw shape_drag = ShapeDragLaw::of<HoelzerSommerfeld>();
   CouplingScheme scheme = CouplingScheme::layered;
   CentredConfig centred, smoothed;
   CfdemConfig cfdem;

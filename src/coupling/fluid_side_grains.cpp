@@ -7,7 +7,8 @@
 
 namespace barchan {
 
-FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x, const ForceSwitches& forces) {
+FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x, const GrainState& grains,
+                                 const ForceSwitches& forces) {
   if (!grid.ranks) return;
   is_cut_ = true;
   const Decomposition& pencils = *grid.ranks;
@@ -20,6 +21,7 @@ FluidSideGrains::FluidSideGrains(const Grid& grid, bool periodic_x, const ForceS
   copies_ = make_grain_entries(0, ranks_);
   add_fluid(copies_);
   add_exchange(copies_, forces);
+  if (grains.clump.size() > 0) add_parts(copies_);
 }
 
 /// Finds the owners of the grains: fills entry_, in their order, and counts_.

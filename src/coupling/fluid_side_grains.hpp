@@ -13,9 +13,10 @@ namespace barchan {
 class FluidSideGrains {
  public:
   FluidSideGrains() = default;
-  /// Makes empty copies. `periodic_x`: grains beyond one end come in at the other. `forces`: those
-  /// whose arrays the grains have.
-  FluidSideGrains(const Grid& grid, bool periodic_x, const ForceSwitches& forces = {});
+  /// Makes empty copies of such grains. `periodic_x`: those beyond one end come in at the other.
+  /// `forces`: those whose arrays the grains have.
+  FluidSideGrains(const Grid& grid, bool periodic_x, const GrainState& grains,
+                  const ForceSwitches& forces = {});
 
   /// Sends copies to the ranks of the flow. Returns the grains whose centres lie in this rank's
   /// pencil, with the arrays of the `uses` (see GrainUse). Positions are inside the domain. Valid

@@ -58,6 +58,7 @@ class Gather {
   CouplingFields& fields_;
   FluidForces forces_;
   DragLaws::Variant drag_;
+  ShapeFactor shape_;
   SubmergedWeight weight_;
   Real rho_f_, nu_;
   bool has_floor_;  // no slip at y = 0

@@ -1,5 +1,7 @@
 #include "src/coupling/layered_exchange.hpp"
 
+#include <algorithm>
+
 #include "kernels/coupling/force_density.hpp"
 #include "src/parallel/cell_reductions.hpp"
 
@@ -18,7 +20,9 @@ bool may_be_oversubscribed(const Grid& grid, Real d) {
 
 LayeredExchange::LayeredExchange(const FlowAndGrains& of)
     : UnresolvedExchange(of, {.points = PointModel::divided}, true),
-      oversubscribed_(may_be_oversubscribed(of.grid, 2 * of.grains.r_max)) {}
+      oversubscribed_(may_be_oversubscribed(
+          of.grid, std::max(2 * of.grains.r_max,
+                            of.grains.clump.size() > 0 ? of.grains.sauter_diameter : Real(0)))) {}
 
 void LayeredExchange::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   begin_gather(fluid, grains);
@@ -109,6 +113,7 @@ void LayeredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
                                  .pressure = fields_.pressure_in_cells,
                                  .stress = fields_.stress_in_cells,
                                  .grains = grains.kin,
+                                 .part = grains.fluid.part,
                                  .flow = gather_.flow()};
   Kokkos::parallel_for("coupling: flow at grains", items(grains.n),
                        LayeredFlow{over_cells, grid_.box, fluid.u, fluid.du_dt, fields_.convective,

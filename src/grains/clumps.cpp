@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "kernels/grains/clump_motion.hpp"
 #include "kernels/grains/sphere.hpp"
 #include "kernels/math/random.hpp"
 #include "src/base/enum_names.hpp"
@@ -20,13 +19,18 @@ namespace barchan {
 
 namespace {
 
+constexpr Real kPi = std::numbers::pi_v<Real>;
 constexpr std::uint64_t kPurpose = 74;  // of the random numbers of orientations
 
 /// Shape of a kind, of volume pi/6. Those of all kinds of a program are few: they are kept. One
 /// that is none, as check_shapes tells, is taken as a sphere.
 const ClumpShape& shape_of(const ShapeConfig& shape) {
-  static const ClumpShape sphere{
-      .spheres = {{{}, 0.5}}, .shares = {1}, .inertia = {0.1, 0.1, 0.1}, .bounding_radius = 0.5};
+  static const ClumpShape sphere{.spheres = {{{}, 0.5}},
+                                 .shares = {1},
+                                 .inertia = {0.1, 0.1, 0.1},
+                                 .bounding_radius = 0.5,
+                                 .surface = kPi,
+                                 .projected_areas = {kPi / 4, kPi / 4, kPi / 4}};
   static std::deque<std::pair<std::vector<ClumpSphere>, ClumpShape>> known;
   if (!is_clump(shape)) return sphere;
   const std::vector<ClumpSphere> spheres = spheres_of(shape);
@@ -40,10 +44,18 @@ const ClumpShape& shape_of(const ShapeConfig& shape) {
 Quaternion random_orientation(std::uint64_t seed, std::int64_t number) {
   const auto count = 3 * static_cast<std::uint64_t>(number);
   const auto uniform = [&](std::uint64_t n) { return uniform_number(seed, kPurpose, count + n); };
-  const Real u = uniform(0), a = 2 * std::numbers::pi_v<Real> * uniform(1),
-             b = 2 * std::numbers::pi_v<Real> * uniform(2);
+  const Real u = uniform(0), a = 2 * kPi * uniform(1), b = 2 * kPi * uniform(2);
   const Real r = std::sqrt(1 - u), s = std::sqrt(u);
   return {s * std::cos(b), r * std::sin(a), r * std::cos(a), s * std::sin(b)};
+}
+
+template <class Value>
+Kokkos::View<const Value*> on_device(const char* name, const std::vector<Value>& values) {
+  const Kokkos::View<Value*> there(name, values.size());
+  const auto host = mirror(there);
+  std::ranges::copy(values, host.data());
+  Kokkos::deep_copy(there, host);
+  return there;
 }
 
 /// Takes the entries of the first spheres of clumps.
@@ -105,18 +117,19 @@ InertiaInContacts least_inertia_in_contacts(const GrainConfig& grains) {
 ClumpShapes clump_shapes(const GrainConfig& grains) {
   ClumpShapes shapes;
   std::vector<Vec4> spheres;
+  std::vector<Real> shares;
   int k = 0;
   for (const KindConfig& kind : all_kinds(grains)) {
     const ClumpShape& shape = shape_of(kind.shape);
     shapes.inertia[k] = shape.inertia;
+    shapes.shadows[k] = shape.projected_areas;
+    shapes.sphericity[k] = shape.sphericity();
     for (const auto& [c, radius] : shape.spheres) spheres.emplace_back(c.x, c.y, c.z, radius);
+    shares.insert(shares.end(), shape.shares.begin(), shape.shares.end());
     shapes.first[++k] = static_cast<int>(spheres.size());
   }
-  const Kokkos::View<Vec4*> sphere("spheres of clumps", spheres.size());
-  const auto host = mirror(sphere);
-  std::copy(spheres.begin(), spheres.end(), host.data());
-  Kokkos::deep_copy(sphere, host);
-  shapes.sphere = sphere;
+  shapes.sphere = on_device("spheres of clumps", spheres);
+  shapes.share = on_device("shares of spheres", shares);
   return shapes;
 }
 
@@ -156,7 +169,7 @@ InitialGrains as_spheres(const InitialGrains& grains, const GrainConfig& config,
 GrainState whole_grains(const GrainState& grains) {
   if (grains.clump.size() == 0) return grains;
   const int n = grains.members.n;
-  const ClumpsOfGrains clumps{grains.shapes, grains.members, grains.clump, grains.kind};
+  const ClumpsOfGrains clumps = clumps_of(grains);
   GrainState whole = make_grain_entries(n, grains.ranks);
   const auto size = whole.id.extent(0);
   if (grains.kind.size() > 0) whole.kind = Kokkos::View<std::uint8_t*>("kind", size);
@@ -194,7 +207,7 @@ GrainState whole_grains(const GrainState& grains) {
 Kokkos::View<const Vec3*> sum_over_spheres(const GrainState& grains,
                                            const Kokkos::View<const Vec3*>& of_spheres) {
   if (grains.clump.size() == 0 || of_spheres.size() == 0) return of_spheres;
-  const ClumpsOfGrains clumps{grains.shapes, grains.members, grains.clump, grains.kind};
+  const ClumpsOfGrains clumps = clumps_of(grains);
   const Kokkos::View<Vec3*> sums("sum over spheres",
                                  static_cast<std::size_t>(std::max(grains.members.n, 1)));
   Kokkos::parallel_for(

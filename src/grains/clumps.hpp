@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kernels/grains/clump_motion.hpp"
 #include "kernels/grains/step_limit.hpp"
 #include "src/grains/clump_shape.hpp"
 #include "src/grains/grain_state.hpp"
@@ -37,6 +38,11 @@ ClumpShapes clump_shapes(const GrainConfig& grains);
 /// random one by `seed` and their numbers. Grains of other cases stay as they are.
 InitialGrains as_spheres(const InitialGrains& grains, const GrainConfig& config,
                          std::uint64_t seed);
+
+/// Clumps of a state with clumps, for kernels.
+inline ClumpsOfGrains clumps_of(const GrainState& grains) {
+  return {grains.shapes, grains.members, grains.clump, grains.kind};
+}
 
 /// Whole grains: one entry for each clump, with its centre, velocity and spin and the diameter of
 /// the sphere of its volume; forces and torques are those on the clump. The same state where there

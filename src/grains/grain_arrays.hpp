@@ -26,6 +26,7 @@ void for_each_grain_array(State& s, const Action& action) {
   add(s.kind,             "kind",             "1",    by_solver,  kRestart | kGhosts);
   add(s.heap,             "heap",             "1",    by_solver,  kRestart);
   add(s.clump,            "clump",            "SI",   by_solver,  kRestart);
+  add(f.part,             "part",             "1",    by_solver,  kGatherReads);
   add(s.contact_force,    "contact_force",    "N",    always,     kRestart);
   add(s.contact_torque,   "contact_torque",   "N m",  always,     kRestart);
   add(s.x_reference,      "x_reference",      "m",    always,     kRestart);

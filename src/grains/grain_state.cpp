@@ -113,9 +113,11 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
   }
   s.r_min = n_all > 0 ? initial.diameter[0] / 2 : 0;
   Real d3 = 0, d2 = 0;
-  for (const Real d : initial.diameter) {
-    s.r_max = std::max(s.r_max, d / 2);
-    s.r_min = std::min(s.r_min, d / 2);
+  for (std::size_t q = 0; q < initial.size(); ++q) {
+    s.r_max = std::max(s.r_max, initial.diameter[q] / 2);
+    s.r_min = std::min(s.r_min, initial.diameter[q] / 2);
+    if (has_clumps && member_of_id(initial.id[q]) > 0) continue;
+    const Real d = has_clumps ? initial.clump[q].d : initial.diameter[q];
     d2 += d * d;
     d3 += d * d * d;
   }
@@ -147,6 +149,10 @@ void add_exchange(GrainState& s, const ForceSwitches& forces) {
   if (forces.lift) allocate(s, Allocated::with_lift);
   s.fluid.has_torque = forces.torque;
   if (forces.torque) allocate(s, Allocated::with_torque);
+}
+
+void add_parts(GrainState& s) {
+  s.fluid.part = Kokkos::View<PartOfClump*>("part", s.kin.extent(0));
 }
 
 void add_resolved_forces(GrainState& s) { allocate(s, Allocated::when_resolved); }

@@ -128,6 +128,8 @@ void add_heaps(GrainState& grains, const std::vector<std::string>& names);
 /// computed flow.
 void add_fluid(GrainState& grains);
 void add_exchange(GrainState& grains, const ForceSwitches& forces = {});
+/// Adds the parts that clumps are in a flow.
+void add_parts(GrainState& grains);
 /// Adds the arrays of forces of a flow that is resolved around the grains.
 void add_resolved_forces(GrainState& grains);
 /// The same for grains that move in it.

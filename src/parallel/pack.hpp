@@ -20,7 +20,7 @@ namespace barchan {
 struct PackLayout {
   // Largest number of arrays. All arrays of a grain fit, as a test of CoupledOverRanks shows; more
   // would not fit a kernel's arguments. However many columns an array has, it counts as one.
-  static constexpr int kMax = 28;
+  static constexpr int kMax = 32;
   struct Array {
     char* data;
     std::int32_t column_stride;  // from column to column [numbers of eight bytes]

@@ -24,7 +24,7 @@ namespace {
 double kinetic_energy(const GrainState& grains) {
   double energy = 0;
   if (grains.clump.size() > 0) {
-    const ClumpsOfGrains clumps{grains.shapes, grains.members, grains.clump, grains.kind};
+    const ClumpsOfGrains clumps = clumps_of(grains);
     Kokkos::parallel_reduce("history: kinetic energy of the clumps", grains.members.n,
                             ClumpKineticEnergy{clumps}, energy);
   } else {

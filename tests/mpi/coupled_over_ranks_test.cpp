@@ -158,7 +158,7 @@ TEST(CoupledOverRanks, ScatterIsTheAdjointOfGather) {
     add_fluid(grains);
     add_exchange(grains);
     give_each_its_own(grains);
-    FluidSideGrains fluid_side(grid, false);
+    FluidSideGrains fluid_side(grid, false, grains);
     GrainState& there = fluid_side.to_fluid_ranks(grains, kDepositReads);
     EXPECT_EQ(sum_over(MPI_COMM_WORLD, there.n), 900);
     const ExchangeOfGrain of_grain{
@@ -240,6 +240,16 @@ TEST(CoupledOverRanks, TwentyStepsWithForcesOfShearAsOnOneRank) {
   c.coupling.forces.lift = c.coupling.forces.torque = c.coupling.forces.wall_drag = true;
   c.coupling.forces.mixture_viscosity = true;
   twenty_steps(c);
+}
+
+/// A heap of cubes and of sand.
+TEST(CoupledOverRanks, TwentyStepsOfClumpsAsOnOneRank) {
+  Config c = test::coupled_config();
+  c.coupling.forces.lift = c.coupling.forces.torque = true;
+  for (const NamedClump name : {NamedClump::cube, NamedClump::sand}) {
+    c.grains->shape = {.shape = GrainShape::clump, .clump = name};
+    twenty_steps(c);
+  }
 }
 
 TEST(CoupledOverRanks, TwentyStepsInCellsOfTwoDiametersAsOnOneRank) {

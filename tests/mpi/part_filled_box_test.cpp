@@ -47,6 +47,12 @@ const Surroundings kSurroundings[] = {
                     .radius = 4e-4,
                     .height = 0.004}};
      }},
+    {"clumps",
+     [](Config& c) {
+       c.grains->shape = {.shape = GrainShape::clump, .clump = NamedClump::cube};
+       c.grains->boundary_x = GrainBoundaryX::periodic;
+       c.coupling.forces.lift = c.coupling.forces.torque = true;
+     }},
     {"all forces", [](Config& c) {
        c.fluid->top = WallFlow::free_slip;
        c.coupling.forces.lift = c.coupling.forces.torque = c.coupling.forces.wall_drag = true;

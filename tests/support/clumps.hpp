@@ -4,8 +4,8 @@
 #include <map>
 #include <vector>
 
-#include "kernels/grains/clump_motion.hpp"
 #include "src/grains/clumps.hpp"
+#include "tests/support/coupled_run.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace barchan::test {
@@ -52,13 +52,21 @@ struct ClumpBench : GrainBench {
   }
 };
 
+/// A case of clumps in water that is stepped by hand.
+struct ClumpRun : CoupledRun {
+  ClumpRun(const Config& c, const InitialGrains& grains)
+      : CoupledRun(c, as_spheres(grains, *c.grains, 1)) {}
+  /// Centre, velocity, spin and size of the first clump.
+  GrainKinematics first() const { return host_copy(whole_grains(*state.grains).kin)(0); }
+};
+
 /// Sums over all clumps: momentum [N s], angular momentum about the origin [N m s], energy [J].
 struct ClumpSums {
   Vec3 momentum, angular;
   Real energy = 0;
 };
 inline ClumpSums sums_of(const GrainState& s) {
-  const ClumpsOfGrains clumps{s.shapes, s.members, s.clump, s.kind};
+  const ClumpsOfGrains clumps = clumps_of(s);
   ClumpSums sums{};
   Kokkos::parallel_reduce("test: energy", s.members.n, ClumpKineticEnergy{clumps}, sums.energy);
   const auto motion = host_copy(whole_grains(s).clump);
