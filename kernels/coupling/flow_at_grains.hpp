@@ -145,8 +145,8 @@ struct FlowOverCells {
   bool with_pressure = false, with_stress = false;
   CellVectorRef pressure{}, stress{};
   Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<const PartOfClump*> part;  // empty: all grains are spheres
   FlowAtGrains flow;
+  Kokkos::View<const PartOfClump*> part = {};  // empty: all grains are spheres
   KOKKOS_FUNCTION void operator()(int g) const { (*this)(g, stencil(grains(g))); }
   KOKKOS_INLINE_FUNCTION void operator()(int g, const GrainCells& cells) const {
     const Real whole = volume_of_grain(g);

@@ -56,8 +56,8 @@ void CentredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
                                      .alpha_f = fluid.alpha_f,
                                      .alpha_raw = fields_.raw_fraction(fluid),
                                      .grains = grains.kin,
-                                     .part = grains.fluid.part,
-                                     .flow = gather_.flow()});
+                                     .flow = gather_.flow(),
+                                     .part = grains.fluid.part});
   Kokkos::parallel_for(
       "coupling: flow at grains", items(grains.n),
       FlowAtCentres{grid_.grid, grid_.box, fluid.u, fluid.du_dt, fields_.convective, fluid.alpha_f,

@@ -113,8 +113,8 @@ void LayeredExchange::flow_at_grains(const FluidState& fluid, const GrainState& 
                                  .pressure = fields_.pressure_in_cells,
                                  .stress = fields_.stress_in_cells,
                                  .grains = grains.kin,
-                                 .part = grains.fluid.part,
-                                 .flow = gather_.flow()};
+                                 .flow = gather_.flow(),
+                                 .part = grains.fluid.part};
   Kokkos::parallel_for("coupling: flow at grains", items(grains.n),
                        LayeredFlow{over_cells, grid_.box, fluid.u, fluid.du_dt, fields_.convective,
                                    oversubscribed_, fields_.solid_x, fields_.solid_z});

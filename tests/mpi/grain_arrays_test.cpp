@@ -144,7 +144,7 @@ TEST(GrainArrays, AnExtraOneGoesToTheFluidRanksAndBack) {
   const ForceSwitches forces{.lift = true, .torque = true};
   add_exchange(m.grains, forces);
   const test::SharedGrid grid({12, 4, 10}, size, 0);
-  FluidSideGrains fluid_side(grid.mine, true, forces);
+  FluidSideGrains fluid_side(grid.mine, true, m.grains, forces);
   for (const Real sign : {-1, 3}) {
     GrainState& there = fluid_side.to_fluid_ranks(m.grains, kGatherReads);
     EXPECT_EQ(sum_over(MPI_COMM_WORLD, there.n), n_grains);
