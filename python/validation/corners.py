@@ -1,9 +1,10 @@
-"""corners: heap and dune of clumps without rolling friction beside those of spheres with it, from the runs of
-configs/field/corners.toml. `--keep` takes the folder of the study, runs/field/corners.
+"""corners: heap, dune and threshold of clumps without rolling friction beside those of spheres with it, from the runs
+of configs/field/corners.toml and corners-threshold.toml. `--keep` takes the folder of either study, and keeps the rows
+of the other one.
 
 A row is a number of a run. `heap ...`: of the heap at the start; `slope` is the mean angle of its two sides along the
-stream. The others are of the main dune over the second half of the run, as in laws.csv and slopes.csv. SI units, angles
-in degrees.
+stream. `threshold`: Shields number at which the load of a bed goes to zero, as in threshold.py. The others are of the
+main dune over the second half of the run, as in laws.csv and slopes.csv. SI units, angles in degrees.
 """
 
 import csv
@@ -17,7 +18,7 @@ from barchan.errors import MissingData
 from barchan.figures import style
 from barchan.io.study_folder import StudyFolder, gap_of
 from barchan.stats import spread
-from validation import tables
+from validation import tables, threshold
 
 NAME = "corners"
 COLUMNS = "case,realisation,quantity,value"
@@ -25,11 +26,22 @@ OF_HEAP, OF_DUNE, ANGLES = ("W", "L", "H"), ("grains", "W", "L", "H", "celerity"
                                                                                            "slip_face_angle")
 PANELS = {"heap slope": ("heap: slope [$^\\circ$]", 1), "W": ("W [mm]", 1e3), "L": ("L [mm]", 1e3),
           "celerity": ("celerity [mm/s]", 1e3), "loss": ("loss [%/s]", 100),
-          "slip_face_angle": ("slip face [$^\\circ$]", 1)}
+          "slip_face_angle": ("slip face [$^\\circ$]", 1), "stoss_angle": ("stoss side [$^\\circ$]", 1),
+          "threshold": ("threshold: Shields number", 1)}
 
 
 def measure(run):
-    """(quantity, value) of heap and dune."""
+    """(quantity, value) of a bed, or of heap and dune."""
+    return of_bed(run) if run.config["grains"]["boundary_x"] == "periodic" else of_dune(run)
+
+
+def of_bed(run):
+    shields, q_star, load = np.transpose([row[-3:] for row in threshold.measure(run)])
+    low = q_star <= threshold.FITTED[1]
+    yield "threshold", threshold.zero(shields[low], load[low])[1]
+
+
+def of_dune(run):
     dune, grains = run.main_dune_columns, run.frame(0)
     for name in OF_HEAP:
         yield f"heap {name}", dune[name][0]
@@ -48,11 +60,20 @@ def save(folder, out):
     study = StudyFolder(folder)
     runs = [(case, run) for case in study.cases for run in case.runs if not gap_of(run.path)]
     if not runs:
-        raise MissingData(f"needs finished runs of configs/field/corners.toml in {folder}")
-    rows = [f"{case.name},{run.config['initial']['realisation']},{quantity},{value:.6g}"
-            for case, run in runs for quantity, value in measure(run)]
-    return tables.keep(out / f"{NAME}.csv", "Clumps, and spheres with rolling friction",
-                       "./barchan sweep configs/field/corners.toml", runs[0][1].summary, [COLUMNS, *rows])
+        raise MissingData(f"needs finished runs of configs/field/corners.toml or corners-threshold.toml in {folder}")
+    found = {(case.name, str(run.config["initial"]["realisation"]), quantity): f"{value:.6g}"
+             for case, run in runs for quantity, value in measure(run)}
+    path = out / f"{NAME}.csv"
+    rows = {**(rows_of(path) if path.exists() else {}), **found}
+    return tables.keep(path, "Clumps, and spheres with rolling friction",
+                       "./barchan sweep configs/field/corners.toml; ./barchan sweep configs/field/corners-threshold.toml",
+                       runs[0][1].summary, [COLUMNS, *(",".join((*key, value)) for key, value in sorted(rows.items()))])
+
+
+def rows_of(path):
+    """{(case, realisation, quantity): value as written}."""
+    lines = csv.reader(line for line in path.read_text().splitlines() if not line.startswith("#"))
+    return {tuple(key): value for *key, value in list(lines)[1:]}
 
 
 def read(source):
@@ -61,8 +82,8 @@ def read(source):
     if not path.exists():
         raise MissingData(f"needs {path}")
     found = {}
-    for row in csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")):
-        found.setdefault(row["case"], {}).setdefault(row["quantity"], []).append(float(row["value"]))
+    for (case, _, quantity), value in rows_of(path).items():
+        found.setdefault(case, {}).setdefault(quantity, []).append(float(value))
     return found
 
 
@@ -76,10 +97,10 @@ def summary(source):
 
 def draw(source):
     found = read(source)
-    figure, axes = style.panels(None, 2, 3, figsize=(style.FULL_WIDTH, 4.6))
+    figure, axes = style.panels(None, 2, 4, figsize=(style.FULL_WIDTH, 4.6))
     for ax, (name, (label, factor)) in zip(np.ravel(axes), PANELS.items()):
         for place, (case, quantities) in enumerate(found.items()):
-            values = factor * np.array(quantities[name])
+            values = factor * np.array(quantities.get(name, [np.nan]))
             colour = style.BLUE if case.startswith("rolling") else style.VERMILLION
             ax.plot(np.full(len(values), place), values, "o", color=colour)
             ax.plot(place, np.nanmean(values), "_", ms=18, color=colour)

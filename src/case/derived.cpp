@@ -7,6 +7,7 @@
 
 #include "src/fluid/flow_schedule.hpp"
 #include "src/fluid/mesh.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/grains/kinds.hpp"
 
 namespace barchan {
@@ -68,6 +69,7 @@ KindNumbers derive_kind(const Config& config, const KindConfig& kind,
                         const std::optional<FluidNumbers>& flow) {
   const GrainConfig& grains = *config.grains;
   KindNumbers n{.name = kind.name,
+                .spheres = sphere_count(kind.shape),
                 .density = kind.density,
                 .youngs_modulus = kind.material.youngs_modulus,
                 .d_min = std::ranges::min(sizes, {}, &SizeClass::diameter).diameter,
@@ -112,7 +114,9 @@ GrainNumbers derive_grains(const Config& config, const std::vector<SizeClass>& s
     std::vector<SizeClass> of_kind;
     std::ranges::copy_if(sizes, std::back_inserter(of_kind),
                          [&](const SizeClass& size) { return std::cmp_equal(size.kind, k); });
-    if (!of_kind.empty()) n.kinds.push_back(derive_kind(config, kinds[k], of_kind, flow));
+    if (of_kind.empty()) continue;
+    n.kinds.push_back(derive_kind(config, kinds[k], of_kind, flow));
+    for (const SizeClass& size : of_kind) n.spheres += n.kinds.back().spheres * size.count;
   }
   n.fastest_contacts = std::ranges::min(n.kinds, {}, &KindNumbers::rayleigh_min);
   n.fraction_min = true_grain_step(config.time) / n.fastest_contacts.rayleigh_min;

@@ -69,6 +69,7 @@ struct FluidNumbers {
 /// Numbers of the grains of one kind.
 struct KindNumbers {
   std::string name;                            // empty: there is one
+  int spheres = 1;                             // of a grain
   double density = 0;                          // [kg/m^3]
   double youngs_modulus = 0;                   // [Pa]
   double d_min = 0, d_mean = 0;                // smallest and mean diameter [m]; mean by number
@@ -82,7 +83,7 @@ struct KindNumbers {
 };
 
 struct GrainNumbers {
-  std::int64_t count = 0;
+  std::int64_t count = 0, spheres = 0;         // more spheres than grains where there are clumps
   double d_min = 0, d_mean = 0, d_max = 0;     // [m]; mean by number
   double solid_volume = 0;                     // [m^3]
   std::vector<KindNumbers> kinds;              // kinds that there are grains of

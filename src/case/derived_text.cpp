@@ -63,7 +63,8 @@ void add_kind(std::string& text, const KindNumbers& n) {
          kLayersAtRest, impact);
   }
   if (n.fall_velocity > 0)
-    line(text, "fall velocity", "{}{:.4g} m/s (mean grain alone)", of, n.fall_velocity);
+    line(text, "fall velocity", "{}{:.4g} m/s ({} alone)", of, n.fall_velocity,
+         n.spheres > 1 ? "sphere of the mean grain's volume" : "mean grain");
   if (n.shields > 0) {
     line(text, "Shields number",
          "{}{:.4f}; flat beds move from about {:.4f} on (Soulsby-Whitehouse; here: "
@@ -73,7 +74,8 @@ void add_kind(std::string& text, const KindNumbers& n) {
 }
 
 void add_grains(std::string& text, const GrainNumbers& n, CouplingScheme scheme) {
-  line(text, "grains", "{}, d {:.4g} to {:.4g}, mean {:.4g} mm", n.count, 1e3 * n.d_min,
+  const std::string of = n.spheres > n.count ? fmt::format(" of {} spheres", n.spheres) : "";
+  line(text, "grains", "{}{}, d {:.4g} to {:.4g}, mean {:.4g} mm", n.count, of, 1e3 * n.d_min,
        1e3 * n.d_max, 1e3 * n.d_mean);
   line(text, "solid volume", "{:.4g} m^3", n.solid_volume);
   line(text, "grain step / Rayleigh", "{:.1f} % (smallest), {:.1f} % (mean grain)",
