@@ -46,7 +46,7 @@ ExchangeLedger ExchangeSums::ledger(MPI_Comm ranks, Real dt) const {
 }
 
 void Ledger::close_step(const ExchangeLedger& step, const GrainState& grains) {
-  std::vector<std::int64_t> counts{grains.n, grains.n_left};
+  std::vector<std::int64_t> counts{grain_count(grains), grains.n_left};
   sum_over(grains.ranks, counts);
   const std::int64_t came = grains.n_initial + grains.feed.n_fed;
   if (counts[0] + counts[1] != came) {

@@ -32,8 +32,9 @@ class GrainSolver {
   /// Sets up laws of other kinds than the case's (for tests). GrainState::kind holds them where
   /// they are several.
   GrainSolver(const GrainsCase& config, GrainState& grains, const GrainKinds& kinds);
-  /// Builds the first list.
-  void start(GrainState& grains) { list_.rebuild(grains, true); }
+  /// Builds the first list. Clumps must have come as their spheres (as_spheres); throws
+  /// std::logic_error otherwise.
+  void start(GrainState& grains);
 
   /// Advances the grains by n grain steps of dt [s] with the fluid side of `grains` held fixed.
   /// Equals n calls of one grain step, bit for bit.
@@ -91,7 +92,6 @@ class GrainSolver {
   LawTables pair_laws_, wall_laws_;
   NeighborList list_;
   RollingModels::Variant rolling_;
-  InertiaInContacts inertia_in_contacts_;  // the least of all kinds
   WallShapes walls_;
   GrainsOnBodies on_bodies_;
   int ahead_ = kOnHost ? 1 : 16;

@@ -17,11 +17,12 @@
 
 namespace barchan {
 
-/// Grain that comes in: its number, body, and centre [m].
+/// Grain that comes in, or a sphere of a clump that does: its number, body, and centre [m].
 struct NewGrain {
   std::int64_t id = 0;
   GrainBody body;
   Vec3 x;
+  ClumpMotion clump = {};  // where there are clumps
 };
 
 /// Half Verlet list with a skin around each grain (SetSkins), valid until a grain has moved its
@@ -42,8 +43,8 @@ class NeighborList {
   void rebuild(GrainState& grains, bool drop);
   /// Rebuilds the list without the grains that leave, if there are any.
   void drop_left(GrainState& grains);
-  /// Rebuilds the list with new grains: at rest, without contacts. The first of all ranks takes
-  /// them.
+  /// Rebuilds the list with new grains, or all spheres of new clumps: at rest, without contacts.
+  /// The first of all ranks takes them and gives them to those that own their columns.
   void bring_in(GrainState& grains, const std::vector<NewGrain>& come);
   /// Condition for the grains that leave now.
   CountLeaving leaving(const GrainState& grains) const {

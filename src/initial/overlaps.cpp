@@ -148,12 +148,12 @@ void check_outside_bodies(const InitialGrains& grains, const GrainsCase& config,
   }
 }
 
-void check_feed_places(const GrainsCase& config, double d_min, double d_max) {
+void check_feed_places(const GrainsCase& config, const Widths& widths) {
   if (config.bodies.n == 0 || !config.grains.feed) return;
   if (config.grains.boundary_x == GrainBoundaryX::follow) return;  // its places move
   const FeedConfig& feed = *config.grains.feed;
-  for (const double d : {d_min, d_max})
-    if (!in_bodies_everywhere(feed, config.size[2], d / 2, config.bodies)) return;
+  for (const double width : {widths.least, widths.most})
+    if (!in_bodies_everywhere(feed, config.size[2], width / 2, config.bodies)) return;
   throw InputError(fmt::format(
       "[grains.feed] x = {:.6g}, height = {:.6g}: no grain could come in: all across the stream a "
       "body is in its place; move the one or the other (grains.feed.across, body.1.centre)",
