@@ -1,4 +1,5 @@
 // Clumps of spheres over ranks against the same clumps on one rank, and across a restart.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -286,6 +287,32 @@ TEST(ClumpsOverRanks, ARestartKeepsTheBitsOfAFeed) {
     EXPECT_EQ(n_spheres,
               8 * (24 + number(at_once, "feed/n_fed") - number(at_once, "grains/n_left")));
   }
+}
+
+/// A feed that is new at a restart looks for a place for whole cubes: beside a body that leaves
+/// 0.1 mm on each side spheres of theirs would have one.
+TEST(ClumpsOverRanks, AFeedThatIsNewAtARestartNeedsAPlaceForWholeClumps) {
+  const test::SharedFolder folder;
+  const auto beside = [&](double gap) {
+    Config c = cubes_config(0.001);
+    c.grains->boundary_x = GrainBoundaryX::exit;
+    c.bodies = {{.name = "step",
+                 .shape = BodyShape::of<shapes::Box>(),
+                 .centre = {1e-3, c.size[2] / 2},
+                 .height = 1e-3,
+                 .size = {1e-3, c.size[2] - 2 * gap}}};
+    return c;
+  };
+  const auto refusal = [&](double gap) {
+    Config c = beside(gap);
+    const std::string name = fmt::format("{:.3g}", gap);
+    const auto first = run(c, folder.path() / name);
+    c.time.end = 0.002;
+    c.grains->feed = FeedConfig{.rate = 100, .x = 1e-3};
+    return message_of([&] { run(c, folder.path() / (name + " fed"), first); });
+  };
+  EXPECT_NE(refusal(1e-4).find("no grain could come in"), std::string::npos);
+  EXPECT_EQ(refusal(1.8e-4), "");
 }
 
 }  // namespace

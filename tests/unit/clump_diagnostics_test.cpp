@@ -9,10 +9,12 @@
 #include "src/diagnostics/bed_load.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
 #include "src/initial/initial_state.hpp"
+#include "src/initial/overlaps.hpp"
 #include "src/initial/window.hpp"
 #include "tests/support/clumps.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/flow_fields.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
 namespace {
@@ -211,6 +213,20 @@ TEST(ClumpWindow, ClumpsThatReachIntoAWallGo) {
   EXPECT_LT(through.size(), 16u) << "those inside stay";
   EXPECT_EQ(walled.size(), open.size() - through.size());
   for (const std::int64_t id : walled.id) EXPECT_FALSE(through.contains(id)) << id;
+}
+
+TEST(ClumpDiagnostics, ClumpsInABodyCountOnce) {
+  Config c = grain_config();
+  c.grains->shape = {.shape = GrainShape::clump, .clump = NamedClump::cube};
+  c.bodies = {{.name = "post",
+               .shape = BodyShape::of<shapes::Cylinder>(),
+               .centre = {5e-3, 5e-3},
+               .radius = 2e-3,
+               .height = 4e-3}};
+  InitialGrains grains;
+  for (const Real x : {4e-3, 5e-3, 6e-3, 8e-3}) add_grain(grains, kD, {x, 2e-3, 5e-3});
+  const auto said = message_of([&] { check_outside_bodies(spheres_at_start(grains, c), c, "it"); });
+  EXPECT_TRUE(said.starts_with("it: 3 grains lie in body \"post\"")) << said;
 }
 
 TEST(ClumpDiagnostics, ClumpsDoNotMoveInAResolvedFlow) {
