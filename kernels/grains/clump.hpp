@@ -47,7 +47,7 @@ struct ClumpShapes {
 
   KOKKOS_FORCEINLINE_FUNCTION int count(int kind) const { return first[kind + 1] - first[kind]; }
   /// Largest number of spheres of a grain; 0 without shapes.
-  int largest_count() const {
+  KOKKOS_FORCEINLINE_FUNCTION int largest_count() const {
     int largest = 0;
     for (int kind = 0; kind < kMaxKinds; ++kind)
       largest = largest < count(kind) ? count(kind) : largest;

@@ -7,7 +7,6 @@
 #include "kernels/grains/body_contact.hpp"
 #include "kernels/grains/clump_motion.hpp"
 #include "kernels/grains/grain_step.hpp"
-#include "src/grains/clump_members.hpp"
 #include "src/grains/clumps.hpp"
 #include "src/grains/kinds.hpp"
 #include "src/parallel/mirror.hpp"
@@ -84,11 +83,6 @@ GrainSolver::GrainSolver(const GrainsCase& config, GrainState& grains, const Gra
   if (!has_clumps(config.grains)) return;
   grains.shapes = clump_shapes(config.grains);
   if (grains.clump.size() == 0) grains.clump = Kokkos::View<ClumpMotion*>("clump", n);
-}
-
-void GrainSolver::start(GrainState& grains) {
-  if (grains.clump.size() > 0) check_motions(grains);
-  list_.rebuild(grains, true);
 }
 
 void GrainSolver::add_walls(const GrainsCase& config, Real r_max) {

@@ -32,9 +32,8 @@ class GrainSolver {
   /// Sets up laws of other kinds than the case's (for tests). GrainState::kind holds them where
   /// they are several.
   GrainSolver(const GrainsCase& config, GrainState& grains, const GrainKinds& kinds);
-  /// Builds the first list. Clumps must have come as their spheres (as_spheres); throws
-  /// std::logic_error otherwise.
-  void start(GrainState& grains);
+  /// Builds the first list.
+  void start(GrainState& grains) { list_.rebuild(grains, true); }
 
   /// Advances the grains by n grain steps of dt [s] with the fluid side of `grains` held fixed.
   /// Equals n calls of one grain step, bit for bit.

@@ -39,7 +39,8 @@ class NeighborList {
   NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF, Real reach = 0,
                Real longest_arm = 0);
 
-  /// Sorts, searches, carries the history over. `drop` removes grains that leave.
+  /// Sorts, searches, carries the history over. `drop` removes grains that leave. The first rebuild
+  /// throws std::logic_error where clumps have not come as their spheres, by as_spheres().
   void rebuild(GrainState& grains, bool drop);
   /// Rebuilds the list without the grains that leave, if there are any.
   void drop_left(GrainState& grains);
