@@ -6,6 +6,7 @@
 #include "kernels/grains/grain.hpp"
 #include "kernels/grains/law_table.hpp"
 #include "kernels/grains/rigid_rotation.hpp"
+#include "kernels/grains/step_limit.hpp"
 
 namespace barchan {
 
@@ -39,19 +40,26 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr std::int64_t id_of_member(std::int64_t clu
 
 /// Shapes of the kinds of grains, of diameter and mass 1; a sphere is a clump of one.
 struct ClumpShapes {
-  int first[kMaxKinds + 1] = {};          // first sphere of each kind in `sphere`
-  Vec3 inertia[kMaxKinds] = {};           // principal moments
+  int first[kMaxKinds + 1] = {};  // first sphere of each kind in `sphere`
+  Vec3 inertia[kMaxKinds] = {};   // principal moments
+  InertiaInContacts in_contacts[kMaxKinds] = {};
   Vec3 shadows[kMaxKinds] = {};           // areas seen along the principal axes
   Real sphericity[kMaxKinds] = {};        // surface of the sphere of its volume over its own
   Kokkos::View<const Vec4*> sphere = {};  // centre and radius
   Kokkos::View<const Real*> share = {};   // of each sphere in the volume
 
   KOKKOS_FORCEINLINE_FUNCTION int count(int kind) const { return first[kind + 1] - first[kind]; }
-  /// Largest number of spheres of a grain.
-  KOKKOS_FUNCTION int most() const {
-    int most = 0;
-    for (int k = 0; k < kMaxKinds; ++k) most = Kokkos::max(most, count(k));
-    return most;
+  /// Largest number of spheres of a grain; 0 without shapes.
+  KOKKOS_FORCEINLINE_FUNCTION int largest_count() const {
+    int largest = 0;
+    for (int kind = 0; kind < kMaxKinds; ++kind)
+      largest = largest < count(kind) ? count(kind) : largest;
+    return largest;
+  }
+  /// Inertia in contacts of an entry; `kind` of all of them, empty: one kind.
+  KOKKOS_FORCEINLINE_FUNCTION InertiaInContacts
+  in_contacts_of(const Kokkos::View<const std::uint8_t*>& kind, int g) const {
+    return in_contacts[kind.extent(0) > 0 ? kind(g) : 0];
   }
   /// Centre of a sphere in the principal frame.
   KOKKOS_FORCEINLINE_FUNCTION Vec3 centre(int kind, int member) const {

@@ -34,12 +34,14 @@ struct MarkTakenPlaces {
   }
 };
 
-/// A grain that leaves: number, radius [m], mass [kg], index of its kind.
+/// A grain that leaves: number, radius [m], mass [kg], index of its kind. A clump has the radius of
+/// the sphere of its volume.
 struct LeavingGrain {
   Real id = 0, r = 0, m = 0, kind = 0;
 };
 
-/// Lists the grains that leave, in whatever order the threads come; `n` starts at zero.
+/// Lists the grains that leave, in whatever order the threads come; `n` starts at zero. The first
+/// sphere of a clump stands for all of it.
 struct ListLeavingGrains {
   CountLeaving who;
   Kokkos::View<const std::int64_t*> id;
@@ -49,9 +51,12 @@ struct ListLeavingGrains {
 
   KOKKOS_FUNCTION void operator()(int g) const {
     if (!who.leaves(g)) return;
+    const auto& clump = who.place.clump;
+    const bool of_clump = clump.extent(0) > 0;
+    if (of_clump && member_of_id(id(g)) > 0) return;
     const GrainKinematics& k = who.place.grains(g);
     leaving(Kokkos::atomic_fetch_add(&n(), 1)) = {.id = static_cast<Real>(id(g)),
-                                                  .r = k.r,
+                                                  .r = of_clump ? clump(g).d / 2 : k.r,
                                                   .m = k.m,
                                                   .kind = kind.extent(0) > 0 ? kind(g) : Real(0)};
   }

@@ -21,8 +21,9 @@ struct TangentialOfPairs {
   PeriodicBox box;
   PairList list;
   Kokkos::View<const GrainKinematics*> grains;
-  Kokkos::View<Real* [2]> sums;  // (n): stiffness [N/m], damping [kg/s]
-  InertiaInContacts inertia = {};
+  Kokkos::View<Real* [2]> sums;            // (n): stiffness [N/m], damping [kg/s]
+  Kokkos::View<const std::uint8_t*> kind;  // kinds of the grains; empty: one kind
+  ClumpShapes shapes = {};
 
   KOKKOS_FUNCTION void operator()(int p, Real& shortest) const {
     const int i = list.i(p), j = list.j(p);
@@ -34,7 +35,9 @@ struct TangentialOfPairs {
     const ContactStiffness k = law(effective.r, effective.m, overlap);
     add(i, k);
     add(j, k);
-    const Real step = stable_step(k.k_t, k.gamma_t, inertia.slip * effective.m);
+    const Real slip =
+        Kokkos::min(shapes.in_contacts_of(kind, i).slip, shapes.in_contacts_of(kind, j).slip);
+    const Real step = stable_step(k.k_t, k.gamma_t, slip * effective.m);
     shortest = step < shortest ? step : shortest;
   }
   /// Adds a contact to a grain of this rank; ghosts are skipped.
@@ -59,21 +62,23 @@ struct StableStepOfGrains {
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const Real* [2]> sums;
   Kokkos::View<const std::uint8_t*> kind;  // kinds of the grains; empty: one kind
-  InertiaInContacts inertia = {};
+  ClumpShapes shapes = {};
 
   KOKKOS_FUNCTION void operator()(int g, Real& shortest) const {
     const TangentialSums all = contacts_of(g, shortest);
-    take_spin(all, grains(g).m, shortest);
+    take_spin(all, g, shortest);
   }
   /// Takes the step of the spin of a grain with all of its contacts.
-  KOKKOS_FUNCTION void take_spin(const TangentialSums& all, Real m, Real& shortest) const {
+  KOKKOS_FUNCTION void take_spin(const TangentialSums& all, int g, Real& shortest) const {
     if (all.stiffness <= 0) return;
-    const Real step = stable_step(all.stiffness, all.damping, inertia.spin * m);
+    const InertiaInContacts inertia = shapes.in_contacts_of(kind, g);
+    const Real step = stable_step(all.stiffness, all.damping, inertia.spin * grains(g).m);
     shortest = step < shortest ? step : shortest;
   }
   /// Sums up the contacts of a grain; takes the step of each with a wall or a body alone.
   KOKKOS_FUNCTION TangentialSums contacts_of(int g, Real& shortest) const {
     const GrainKinematics& grain = grains(g);
+    const InertiaInContacts inertia = shapes.in_contacts_of(kind, g);
     const auto& law = laws.of(kind.extent(0) > 0 ? law_entry(kind(g), 0) : std::uint8_t{0});
     Real stiffness = sums(g, 0), damping = sums(g, 1);
     const auto take = [&](Real step) { shortest = step < shortest ? step : shortest; };
@@ -96,17 +101,16 @@ template <class Laws>
 struct StableStepOfClumps {
   StableStepOfGrains<Laws> spheres;
   ClumpMembers members;
-  ClumpShapes shapes;
 
   KOKKOS_FUNCTION void operator()(int clump, Real& shortest) const {
     TangentialSums all;
     const int begin = members.first(clump), head = members.entry(begin);
-    const int count = shapes.count(spheres.kind.extent(0) > 0 ? spheres.kind(head) : 0);
+    const int count = spheres.shapes.count(spheres.kind.extent(0) > 0 ? spheres.kind(head) : 0);
     for (int p = begin; p < begin + count; ++p) {
       const TangentialSums of_one = spheres.contacts_of(members.entry(p), shortest);
       all.stiffness += of_one.stiffness, all.damping += of_one.damping;
     }
-    spheres.take_spin(all, spheres.grains(head).m, shortest);
+    spheres.take_spin(all, head, shortest);
   }
 };
 

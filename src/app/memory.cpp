@@ -68,12 +68,15 @@ double memory_of_case(const Config& config, const std::vector<SizeClass>& sizes)
     double of_grain = bytes_per_grain(config);
     if (config.fluid && is_immersed(config.coupling, *config.grains))
       of_grain += bytes_of_markers(config, sizes);
-    bytes += of_grain * fed_grains(config);
     const std::vector<KindConfig> kinds = all_kinds(*config.grains);
+    double n_grains = 0, n_spheres = 0;
     for (const SizeClass& size : sizes) {
-      const auto kind = static_cast<std::size_t>(size.kind);
-      bytes += of_grain * static_cast<double>(size.count) * sphere_count(kinds[kind].shape);
+      const auto count = static_cast<double>(size.count);
+      n_grains += count;
+      n_spheres += count * sphere_count(kinds[static_cast<std::size_t>(size.kind)].shape);
     }
+    const double of_each = n_grains > 0 ? n_spheres / n_grains : 1;  // of grains fed, too
+    bytes += of_grain * (n_spheres + of_each * fed_grains(config));
   }
   return bytes;
 }

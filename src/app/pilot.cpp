@@ -31,6 +31,7 @@ struct Slice {
 void add_at_rest(InitialGrains& to, const InitialGrains& from, std::size_t g, const Vec3& x) {
   to.add(from.id[g], from.diameter[g], x);
   if (!from.kind.empty()) to.kind.push_back(from.kind[g]);
+  if (!from.q.empty()) to.q.push_back(from.q[g]);
 }
 
 /// First `grains` in order of x, as many as are timed, moved to x = 0.

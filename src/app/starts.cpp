@@ -133,11 +133,12 @@ namespace {
 
 /// Highest point of the grains that a run starts with [m], before they settle where they are still
 /// to be poured; 0 without grains.
-double top_of(const PlannedGrains& planned) {
+double top_of(const PlannedGrains& planned, const Config& config) {
   if (!planned.grains) return poured_top(planned.poured_in.heaps, planned.poured_in.config.size);
+  const InitialGrains spheres = spheres_at_start(*planned.grains, config);
   double top = 0;
-  for (std::size_t g = 0; g < planned.grains->size(); ++g)
-    top = std::max(top, planned.grains->x[g].y + planned.grains->diameter[g] / 2);
+  for (std::size_t s = 0; s < spheres.size(); ++s)
+    top = std::max(top, spheres.x[s].y + spheres.diameter[s] / 2);
   return top;
 }
 
@@ -174,12 +175,12 @@ PlannedGrains grains_of(const Case& the_case, const fs::path& folder) {
 
 PlannedGrains planned_grains(const Case& the_case, const fs::path& folder) {
   PlannedGrains planned = grains_of(the_case, folder);
-  planned.settled = SettledCase(the_case.config, planned.settled.sizes, top_of(planned));
+  planned.settled =
+      SettledCase(the_case.config, planned.settled.sizes, top_of(planned, the_case.config));
   const std::vector<SizeClass>& sizes = planned.settled.sizes;
   if (sizes.empty()) return planned;
   planned.settled.numbers.grains->as_poured = !planned.grains;
-  const auto [least, most] = std::ranges::minmax(sizes, {}, &SizeClass::diameter);
-  check_feed_places(the_case.grains(), least.diameter, most.diameter);
+  check_feed_places(the_case.grains(), widths_of(*the_case.config.grains, sizes));
   return planned;
 }
 

@@ -48,15 +48,15 @@ void check_feed(const Config& c, Findings& found) {
                    "is after the end of the run: no grain comes in");
 }
 
-void check_fed_sizes(const Config& c, double d_max, Findings& found) {
+void check_fed_sizes(const Config& c, double width, Findings& found) {
   if (!c.grains->feed) return;
   const FeedConfig& feed = *c.grains->feed;
-  found.error_if(feed.height + d_max > c.size[1],
+  found.error_if(feed.height + width > c.size[1],
                  {"grains.feed.height", "grains.sizes", "domain.size"},
-                 "must leave room for the largest grain, {:.4g} m, below the top", d_max);
-  found.error_if(c.grains->boundary_x != GrainBoundaryX::follow && feed.x + d_max > c.size[0],
+                 "must leave room for the largest grain, {:.4g} m, below the top", width);
+  found.error_if(c.grains->boundary_x != GrainBoundaryX::follow && feed.x + width > c.size[0],
                  {"grains.feed.x", "grains.sizes", "domain.size"},
-                 "must leave room for the largest grain, {:.4g} m, before the outlet", d_max);
+                 "must leave room for the largest grain, {:.4g} m, before the outlet", width);
 }
 
 }  // namespace barchan

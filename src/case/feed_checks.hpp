@@ -9,7 +9,8 @@ namespace barchan {
 /// Checks a window that follows its dune: grains leave in a strip of two cells.
 void check_following(const Config& config, Findings& found);
 void check_feed(const Config& config, Findings& found);
-/// Checks that the largest of the grains has a place where it comes in. d_max [m].
-void check_fed_sizes(const Config& config, double d_max, Findings& found);
+/// Checks that the largest of the grains has a place where it comes in; `width` of the sphere
+/// around it [m].
+void check_fed_sizes(const Config& config, double width, Findings& found);
 
 }  // namespace barchan

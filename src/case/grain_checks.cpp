@@ -11,6 +11,7 @@
 #include "src/case/kind_checks.hpp"
 #include "src/case/shape_checks.hpp"
 #include "src/fluid/mesh.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/grains/kinds.hpp"
 
 namespace barchan {
@@ -278,7 +279,7 @@ std::vector<Finding> check_grain_sizes(const Config& c, const std::vector<SizeCl
       {"domain.size", "grains.sizes", "grains.skin"},
       "must be at least {:.3g} m in a periodic direction: a grain would meet its own image", reach);
   check_clump_sizes(c, sizes, found);
-  check_fed_sizes(c, n.d_max, found);
+  check_fed_sizes(c, widths_of(*c.grains, sizes).most, found);
   check_motion(c, derived, found);
   if (!c.fluid) return found.all;
   check_cells(c, n, found);

@@ -136,7 +136,7 @@ void add_feed(Sections& all) {
       "[from, to] along z in which grains enter (centres); both 0: the whole width");
   key("height", &F::height, between(0, 1e6), "m",
       "height above the floor at which grains enter (lowest point)");
-  key("seed", &F::seed, "random seed of the places, and of the sizes at a given rate");
+  key("seed", &F::seed, "random seed of places, orientations, and of sizes at a given rate");
 }
 
 void add_coupling(Sections& all) {

@@ -57,18 +57,12 @@ void check_shapes(const Config& c, Findings& found) {
       section_of(grains, static_cast<std::size_t>(first - kinds.begin())) + ".shape";
   found.error_if(c.fluid && c.coupling.scheme == CouplingScheme::resolved, {key, "coupling.scheme"},
                  "must be \"sphere\" with scheme = \"resolved\", whose markers lie on spheres");
-  found.error_if(grains.feed.has_value(), {key, "grains.feed.amount"},
-                 "must be \"sphere\" with [grains.feed], which brings in spheres alone");
 }
 
 void check_clump_sizes(const Config& c, const std::vector<SizeClass>& sizes, Findings& found) {
   const GrainConfig& grains = *c.grains;
   if (!has_clumps(grains)) return;
-  const std::vector<KindConfig> kinds = all_kinds(grains);
-  double widest = 0;
-  for (const SizeClass& size : sizes)
-    widest = std::max(widest,
-                      size.diameter * width_of(kinds[static_cast<std::size_t>(size.kind)].shape));
+  const double widest = widths_of(grains, sizes).most;
   const double least = 2 * (widest + grains.skin);
   found.error_if((grains.boundary_z == GrainBoundaryZ::periodic && c.size[2] < least) ||
                      (is_periodic_x(grains) && c.size[0] < least),

@@ -58,7 +58,7 @@ Deposit::Deposit(const CoupledCase& config, const GrainState& grains, const Coup
       alpha_time_derivative_(config.coupling.alpha_time_derivative) {
   deposits_.sum = decltype(deposits_.sum)("deposits", CellIndex::count(grid.grid));
   Real largest = static_cast<Real>(grains.n_initial) * sphere_volume(grains.r_max);
-  if (grains.clump.size() > 0) largest *= grains.shapes.most();
+  if (grains.clump.size() > 0) largest *= grains.shapes.largest_count();
   if (config.grains->grains.feed)
     largest = std::max(largest, largest_of_cell(grid.grid, grains.r_max));
   deposits_.volume = fixed_point_for(largest);

@@ -90,12 +90,13 @@ Kokkos::View<Vec3*> resultant_force(const GrainState& grains, Real dt) {
 }
 
 Kokkos::View<Vec3*> mean_resultant_force(const GrainState& grains, Real dt) {
-  if (!grains.fluid.has_fluid) return resultant_force(grains, dt);
-  const Kokkos::View<Vec3*> mean = grain_vector("mean resultant", grains.n);
+  const GrainState whole = whole_grains(grains);
+  if (!grains.fluid.has_fluid) return resultant_force(whole, dt);
+  const Kokkos::View<Vec3*> mean = grain_vector("mean resultant", whole.n);
   Kokkos::parallel_for(
-      "output: mean resultant force", items(grains.n),
+      "output: mean resultant force", items(whole.n),
       MeanResultantForce{
-          .grains = grains.kin, .u_start = grains.fluid.u_start, .dt = dt, .mean = mean});
+          .grains = whole.kin, .u_start = whole.fluid.u_start, .dt = dt, .mean = mean});
   return mean;
 }
 

@@ -7,6 +7,7 @@
 
 #include "kernels/diagnostics/bed_load.hpp"
 #include "src/base/atomic_file.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/parallel/exchange.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
@@ -15,6 +16,7 @@ namespace barchan {
 
 static_assert(sizeof(BedLoad::Layer) == 4 * sizeof(double));
 
+/// Chooses the layers by the mean diameter.
 void BedLoad::make_layers(const GrainState& grains) {
   const auto kin = host_copy(grains.kin);
   std::vector<double> counted{static_cast<double>(grains.n), 0};
@@ -79,7 +81,8 @@ std::vector<double> BedLoad::momentum_now(const std::vector<Layer>& grains,
   return momentum;
 }
 
-void BedLoad::sample(const FluidState& fluid, const GrainState& grains, double t) {
+void BedLoad::sample(const FluidState& fluid, const GrainState& entries, double t) {
+  const GrainState grains = whole_grains(entries);
   if (sums_.d == 0) make_layers(grains);
   if (sums_.d == 0) return;
   const std::vector<Layer> now = layers_now(grains);

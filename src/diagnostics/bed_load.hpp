@@ -54,8 +54,8 @@ inline constexpr std::array kBedLoadColumns = [] {
 inline constexpr CsvTable<BedLoadRecord> kBedLoadTable{"bedload.csv", kBedLoadColumns};
 
 /// Means over layers of equal height, a quarter of the mean diameter, over the whole plane of the
-/// box and over time. Where the bed lies in a part of the box, they are means with what is beside
-/// it.
+/// box and over time. A clump counts as the sphere of its volume around its centre. Where the bed
+/// lies in a part of the box, they are means with what is beside it.
 class BedLoad {
  public:
   static constexpr int layers_per_diameter = 4;
@@ -69,7 +69,7 @@ class BedLoad {
   BedLoad(const Surroundings& around, const Grid& grid) : around_(around), grid_(grid) {}
 
   /// Adds one time. Does nothing while there are no grains. All ranks call it together.
-  void sample(const FluidState& fluid, const GrainState& grains, double t);
+  void sample(const FluidState& fluid, const GrainState& entries, double t);
   /// Lines from the floor up; none without samples.
   std::vector<BedLoadRecord> table() const;
   /// Writes bedload.csv, whole or not at all; does nothing without samples.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "src/diagnostics/dune_map.hpp"
-#include "src/grains/grain_state.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/mirror.hpp"
 
@@ -45,13 +45,14 @@ inline std::vector<int> from_rank_0(MPI_Comm ranks, const std::vector<int>& all,
   return mine;
 }
 
-/// All grains as the dune analytics take them; empty on ranks other than 0. All ranks call it
-/// together.
+/// All grains as the dune analytics take them, clumps as spheres of their volume; empty on ranks
+/// other than 0. Those of a rank have the order of whole_grains(). All ranks call it together.
 inline std::vector<GrainSample> gathered_grains(const GrainState& grains) {
-  const auto kin = host_copy(grains.kin);
-  const auto heap = host_copy(grains.heap);
+  const GrainState whole = whole_grains(grains);
+  const auto kin = host_copy(whole.kin);
+  const auto heap = host_copy(whole.heap);
   std::vector<GrainSample> mine;
-  for (int g = 0; g < grains.n; ++g) {
+  for (int g = 0; g < whole.n; ++g) {
     mine.push_back({.x = kin(g).x,
                     .d = 2 * kin(g).r,
                     .u_x = kin(g).u.x,

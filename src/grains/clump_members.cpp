@@ -17,6 +17,19 @@ namespace barchan {
 using Entries = Kokkos::View<int*>;
 using Keys = Kokkos::View<std::uint64_t*>;
 
+void check_motions(const GrainState& grains) {
+  const auto clump = grains.clump;
+  int n_missing = 0;
+  Kokkos::parallel_reduce(
+      "clumps: entries without motion", items(grains.n),
+      KOKKOS_LAMBDA(int g, int& missing) { missing += clump(g).m > 0 ? 0 : 1; }, n_missing);
+  if (n_missing == 0) return;
+  throw std::logic_error(
+      fmt::format("{} of {} grains are not spheres of a clump, and the case has clumps: its grains "
+                  "must go through as_spheres()",
+                  n_missing, grains.n));
+}
+
 ClumpMembers members_of(const GrainState& grains) {
   const int n = grains.n;
   const auto key = uninitialized<Keys>("clumps: keys", n);

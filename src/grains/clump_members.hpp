@@ -7,6 +7,10 @@
 
 namespace barchan {
 
+/// Checks that each sphere has come with the motion of its clump, as as_spheres() gives it; throws
+/// std::logic_error otherwise.
+void check_motions(const GrainState& grains);
+
 /// Finds the entries of each clump of this rank from their ids. Throws StateError if one has not
 /// all of its spheres here.
 ClumpMembers members_of(const GrainState& grains);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -58,13 +59,16 @@ Kokkos::View<const Value*> on_device(const char* name, const std::vector<Value>&
   return there;
 }
 
-/// Takes the entries of the first spheres of clumps.
-template <class View>
-void take_of_heads(const ClumpsOfGrains& clumps, const View& from, const View& to) {
+/// Takes the entries of the first spheres of clumps; an array that is not there stays empty.
+template <class T>
+void take_of_heads(const ClumpsOfGrains& clumps, const Kokkos::View<T*>& from,
+                   Kokkos::View<T*>& to) {
   if (from.size() == 0) return;
+  to = Kokkos::View<T*>(from.label(), static_cast<std::size_t>(std::max(clumps.members.n, 1)));
+  const auto of_heads = to;
   Kokkos::parallel_for(
       "clumps: entries of heads", items(clumps.members.n),
-      KOKKOS_LAMBDA(int c) { to(c) = from(clumps.head(c)); });
+      KOKKOS_LAMBDA(int c) { of_heads(c) = from(clumps.head(c)); });
 }
 
 }  // namespace
@@ -89,6 +93,16 @@ int sphere_count(const ShapeConfig& shape) {
 
 double width_of(const ShapeConfig& shape) { return 2 * shape_of(shape).bounding_radius; }
 
+Widths widths_of(const GrainConfig& grains, const std::vector<SizeClass>& sizes) {
+  const std::vector<KindConfig> kinds = all_kinds(grains);
+  Widths all{.least = std::numeric_limits<double>::infinity()};
+  for (const SizeClass& size : sizes) {
+    const double width = size.diameter * width_of(kinds[static_cast<std::size_t>(size.kind)].shape);
+    all = {.least = std::min(all.least, width), .most = std::max(all.most, width)};
+  }
+  return all;
+}
+
 double longest_arm(const GrainConfig& grains) {
   double longest = 0;
   for (const KindConfig& kind : all_kinds(grains)) {
@@ -105,15 +119,6 @@ InertiaInContacts inertia_of(const ShapeConfig& shape) {
   return inertia_in_contacts(shape_of(shape).inertia.x, shape_of(shape).bounding_radius);
 }
 
-InertiaInContacts least_inertia_in_contacts(const GrainConfig& grains) {
-  InertiaInContacts least;
-  for (const KindConfig& kind : all_kinds(grains)) {
-    const auto [slip, spin] = inertia_of(kind.shape);
-    least = {.slip = std::min(least.slip, slip), .spin = std::min(least.spin, spin)};
-  }
-  return least;
-}
-
 ClumpShapes clump_shapes(const GrainConfig& grains) {
   ClumpShapes shapes;
   std::vector<Vec4> spheres;
@@ -124,6 +129,7 @@ ClumpShapes clump_shapes(const GrainConfig& grains) {
     shapes.inertia[k] = shape.inertia;
     shapes.shadows[k] = shape.projected_areas;
     shapes.sphericity[k] = shape.sphericity();
+    shapes.in_contacts[k] = inertia_of(kind.shape);
     for (const auto& [c, radius] : shape.spheres) spheres.emplace_back(c.x, c.y, c.z, radius);
     shares.insert(shares.end(), shape.shares.begin(), shape.shares.end());
     shapes.first[++k] = static_cast<int>(spheres.size());
@@ -171,10 +177,7 @@ GrainState whole_grains(const GrainState& grains) {
   const int n = grains.members.n;
   const ClumpsOfGrains clumps = clumps_of(grains);
   GrainState whole = make_grain_entries(n, grains.ranks);
-  const auto size = whole.id.extent(0);
-  if (grains.kind.size() > 0) whole.kind = Kokkos::View<std::uint8_t*>("kind", size);
-  if (grains.heap.size() > 0) whole.heap = Kokkos::View<std::uint8_t*>("heap", size);
-  whole.clump = Kokkos::View<ClumpMotion*>("clump", size);
+  whole.clump = Kokkos::View<ClumpMotion*>("clump", whole.id.extent(0));
   whole.kind_names = grains.kind_names, whole.heap_names = grains.heap_names;
   whole.fluid.has_fluid = grains.fluid.has_fluid;
   whole.r_max = grains.r_max, whole.r_min = grains.r_min;
@@ -201,6 +204,9 @@ GrainState whole_grains(const GrainState& grains) {
   take_of_heads(clumps, grains.id, whole.id);
   take_of_heads(clumps, grains.kind, whole.kind);
   take_of_heads(clumps, grains.heap, whole.heap);
+  take_of_heads(clumps, grains.fluid.explicit_force, whole.fluid.explicit_force);
+  take_of_heads(clumps, grains.fluid.impulse, whole.fluid.impulse);
+  take_of_heads(clumps, grains.fluid.u_start, whole.fluid.u_start);
   return whole;
 }
 

@@ -22,14 +22,17 @@ int sphere_count(const ShapeConfig& shape);
 
 /// Diameter of the sphere around the grains of a kind, over that of the sphere of their volume.
 double width_of(const ShapeConfig& shape);
+/// Smallest and largest diameter of the spheres around grains of these sizes [m]; not empty.
+struct Widths {
+  double least = 0, most = 0;
+};
+Widths widths_of(const GrainConfig& grains, const std::vector<SizeClass>& sizes);
 /// Longest distance from the centre of a grain to that of one of its spheres, over the radius of
 /// the largest sphere of its kind.
 double longest_arm(const GrainConfig& grains);
 
-/// Inertia of grains of this shape against forces along their surface; the second function, the
-/// least of all kinds.
+/// Inertia of grains of this shape against forces along their surface.
 InertiaInContacts inertia_of(const ShapeConfig& shape);
-InertiaInContacts least_inertia_in_contacts(const GrainConfig& grains);
 
 /// Shapes of all kinds for kernels.
 ClumpShapes clump_shapes(const GrainConfig& grains);
@@ -45,8 +48,8 @@ inline ClumpsOfGrains clumps_of(const GrainState& grains) {
 }
 
 /// Whole grains: one entry for each clump, with its centre, velocity and spin and the diameter of
-/// the sphere of its volume; forces and torques are those on the clump. The same state where there
-/// are no clumps.
+/// the sphere of its volume; forces and torques are those on the clump, those of the fluid too. The
+/// same state where there are no clumps.
 GrainState whole_grains(const GrainState& grains);
 /// Sum over the spheres of each clump, in the order of whole_grains(); empty stays empty.
 Kokkos::View<const Vec3*> sum_over_spheres(const GrainState& grains,

@@ -8,7 +8,8 @@
 
 namespace barchan {
 
-/// Grain without a place: radius [m], mass [kg], index of its kind.
+/// Grain without a place: radius [m], mass [kg], index of its kind. A clump has the radius of the
+/// sphere of its volume.
 struct GrainBody {
   Real r = 0, m = 0, kind = 0;
   auto operator<=>(const GrainBody&) const = default;

@@ -8,6 +8,8 @@
 #include "kernels/grains/body_contact.hpp"
 #include "kernels/math/random.hpp"
 #include "src/base/errors.hpp"
+#include "src/grains/clumps.hpp"
+#include "src/grains/kinds.hpp"
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/launch.hpp"
@@ -41,14 +43,8 @@ std::vector<Row> of_all_ranks(MPI_Comm ranks, const std::vector<Row>& mine) {
 
 /// Takes the bodies to choose from, and the first number that no grain has.
 void look_at_start(GrainState& grains) {
-  const auto kin = host_copy(grains.kin);
-  const auto kind = host_copy(grains.kind);
-  std::vector<GrainBody> bodies;
-  for (int g = 0; g < grains.n; ++g)
-    bodies.push_back({.r = kin(g).r, .m = kin(g).m, .kind = kind.size() > 0 ? kind(g) : Real(0)});
   grains.feed.next_id = std::max(grains.last_id, grains.n_initial) + 1;
-  grains.feed.bodies = of_all_ranks(grains.ranks, bodies);
-  std::ranges::sort(grains.feed.bodies);
+  grains.feed.bodies = bodies_of(grains);
 }
 
 /// Number of grains that are due and were not asked for. The sum of many parts of a grain may miss
@@ -60,7 +56,8 @@ std::int64_t n_later(const FeedState& feed) {
 }  // namespace
 
 GrainFeed::GrainFeed(const GrainsCase& config)
-    : config_(*config.grains.feed),
+    : grains_(config.grains),
+      config_(*config.grains.feed),
       bodies_(config.bodies),
       dt_(config.fluid_step),
       lz_(config.size[2]),
@@ -68,7 +65,9 @@ GrainFeed::GrainFeed(const GrainsCase& config)
       from_window_edge_(config.grains.boundary_x == GrainBoundaryX::follow),
       places_("feed: places", kPlaces),
       taken_("feed: taken places", kPlaces),
-      n_leaving_("feed: grains that leave") {}
+      n_leaving_("feed: grains that leave") {
+  for (const KindConfig& kind : all_kinds(grains_)) width_.push_back(width_of(kind.shape));
+}
 
 void GrainFeed::advance(GrainState& grains, NeighborList& list) {
   FeedState& feed = grains.feed;
@@ -95,7 +94,8 @@ void GrainFeed::note_leaving(GrainState& grains, const NeighborList& list) {
       ListLeavingGrains{
           .who = who, .id = grains.id, .kind = grains.kind, .leaving = leaving_, .n = n_leaving_});
   const auto mine = host_copy(leaving_);
-  auto all = of_all_ranks(grains.ranks, std::vector(mine.data(), mine.data() + n));
+  auto all =
+      of_all_ranks(grains.ranks, std::vector(mine.data(), mine.data() + host_copy(n_leaving_)()));
   std::ranges::sort(all, {}, &LeavingGrain::id);
   for (const LeavingGrain& g : all) grains.feed.waiting.push_back({g.r, g.m, g.kind});
 }
@@ -122,17 +122,18 @@ std::vector<FeedPlace> GrainFeed::places_to_try(GrainState& grains, const Period
     if (places.size() == kPlaces) break;
     auto [from, to] = config_.across;
     if (from == to) to = from + lz_;
+    const Real r = radius_around(body);
     if (walls_z_) {
-      const double last = std::max(body.r, lz_ - body.r);
-      from = std::clamp(from, body.r, last);
-      to = std::clamp(to, body.r, last);
+      const double last = std::max(r, lz_ - r);
+      from = std::clamp(from, r, last);
+      to = std::clamp(to, r, last);
     }
     const auto count = static_cast<std::uint64_t>(feed.n_tries++);
     const Real inlet =
         from_window_edge_ && std::isfinite(grains.window_edge) ? grains.window_edge : 0;
-    const Real x = inlet + config_.x + body.r;
+    const Real x = inlet + config_.x + r;
     const Real z = from + (to - from) * uniform_number(config_.seed, kAcross, count);
-    places.push_back({.x = box.wrap({x, config_.height + body.r, z}), .r = body.r});
+    places.push_back({.x = box.wrap({x, config_.height + r, z}), .r = r});
   }
   return places;
 }
@@ -168,7 +169,7 @@ void GrainFeed::come_in(GrainState& grains, NeighborList& list) const {
     const bool free = q < places.size() && is_taken[q] == 0 &&
                       deepest_in(bodies_, places[q].x, places[q].r) == 0 &&
                       std::ranges::none_of(come, [&](const NewGrain& other) {
-                        return places[q].overlaps(list.box(), other.x, other.body.r);
+                        return places[q].overlaps(list.box(), other.x, radius_around(other.body));
                       });
     if (free) {
       come.push_back({.id = feed.next_id++, .body = feed.waiting[q], .x = places[q].x});
@@ -179,7 +180,49 @@ void GrainFeed::come_in(GrainState& grains, NeighborList& list) const {
   if (come.empty()) return;
   feed.waiting = waiting;
   feed.n_fed += static_cast<std::int64_t>(come.size());
-  list.bring_in(grains, come);
+  list.bring_in(grains, entries_of(come, list.box()));
+}
+
+/// Radius of the sphere around a grain, in which it may be turned as it likes.
+Real GrainFeed::radius_around(const GrainBody& body) const {
+  return width_[static_cast<std::size_t>(body.kind)] * body.r;
+}
+
+/// All spheres of new clumps, which get their orientations by their numbers; other grains stay as
+/// they are.
+std::vector<NewGrain> GrainFeed::entries_of(const std::vector<NewGrain>& come,
+                                            const PeriodicBox& box) const {
+  if (!has_clumps(grains_)) return come;
+  InitialGrains whole;
+  for (const NewGrain& one : come) {
+    whole.add(one.id, 2 * one.body.r, one.x);
+    whole.kind.push_back(static_cast<std::uint8_t>(one.body.kind));
+  }
+  const InitialGrains spheres = as_spheres(whole, grains_, config_.seed);
+  std::vector<NewGrain> entries;
+  auto of = come.begin();
+  for (std::size_t s = 0; s < spheres.size(); ++s) {
+    while (of->id != clump_of_id(spheres.id[s])) ++of;
+    ClumpMotion clump = spheres.clump[s];
+    clump.m = of->body.m;  // at rest: nothing else depends on it
+    entries.push_back({.id = spheres.id[s],
+                       .body = {spheres.diameter[s] / 2, clump.m, of->body.kind},
+                       .x = box.wrap(spheres.x[s]),
+                       .clump = clump});
+  }
+  return entries;
+}
+
+std::vector<GrainBody> bodies_of(const GrainState& grains) {
+  const GrainState whole = whole_grains(grains);
+  const auto kin = host_copy(whole.kin);
+  const auto kind = host_copy(whole.kind);
+  std::vector<GrainBody> bodies;
+  for (int g = 0; g < whole.n; ++g)
+    bodies.push_back({.r = kin(g).r, .m = kin(g).m, .kind = kind.size() > 0 ? kind(g) : Real(0)});
+  std::vector<GrainBody> all = of_all_ranks(grains.ranks, bodies);
+  std::ranges::sort(all);
+  return all;
 }
 
 std::int64_t n_waiting(const FeedState& feed) {

@@ -82,7 +82,6 @@ GrainSolver::GrainSolver(const GrainsCase& config, GrainState& grains, const Gra
   list_.with_force = config.keeps_forces;
   if (!has_clumps(config.grains)) return;
   grains.shapes = clump_shapes(config.grains);
-  inertia_in_contacts_ = least_inertia_in_contacts(config.grains);
   if (grains.clump.size() == 0) grains.clump = Kokkos::View<ClumpMotion*>("clump", n);
 }
 

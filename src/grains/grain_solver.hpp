@@ -91,7 +91,6 @@ class GrainSolver {
   LawTables pair_laws_, wall_laws_;
   NeighborList list_;
   RollingModels::Variant rolling_;
-  InertiaInContacts inertia_in_contacts_;  // the least of all kinds
   WallShapes walls_;
   GrainsOnBodies on_bodies_;
   int ahead_ = kOnHost ? 1 : 16;

@@ -54,7 +54,8 @@ Real GrainSolver::stable_step(const GrainState& grains) const {
                                                     .list = grains.list,
                                                     .grains = grains.kin,
                                                     .sums = sums,
-                                                    .inertia = inertia_in_contacts_},
+                                                    .kind = grains.kind,
+                                                    .shapes = grains.shapes},
                             Kokkos::Min<Real>(of_pairs));
     const StableStepOfGrains<Laws> of_each{.laws = walls,
                                            .walls = walls_,
@@ -62,12 +63,11 @@ Real GrainSolver::stable_step(const GrainState& grains) const {
                                            .grains = grains.kin,
                                            .sums = sums,
                                            .kind = grains.kind,
-                                           .inertia = inertia_in_contacts_};
+                                           .shapes = grains.shapes};
     if (grains.clump.size() > 0) {
       Kokkos::parallel_reduce(
           "clumps: stable step", items(grains.members.n),
-          StableStepOfClumps<Laws>{
-              .spheres = of_each, .members = grains.members, .shapes = grains.shapes},
+          StableStepOfClumps<Laws>{.spheres = of_each, .members = grains.members},
           Kokkos::Min<Real>(of_grains));
       return;
     }

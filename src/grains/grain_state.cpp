@@ -113,11 +113,11 @@ GrainState make_grain_state(const InitialGrains& initial, std::span<const Real> 
   }
   s.r_min = n_all > 0 ? initial.diameter[0] / 2 : 0;
   Real d3 = 0, d2 = 0;
-  for (std::size_t q = 0; q < initial.size(); ++q) {
-    s.r_max = std::max(s.r_max, initial.diameter[q] / 2);
-    s.r_min = std::min(s.r_min, initial.diameter[q] / 2);
-    if (has_clumps && member_of_id(initial.id[q]) > 0) continue;
-    const Real d = has_clumps ? initial.clump[q].d : initial.diameter[q];
+  for (std::size_t g = 0; g < initial.size(); ++g) {
+    s.r_max = std::max(s.r_max, initial.diameter[g] / 2);
+    s.r_min = std::min(s.r_min, initial.diameter[g] / 2);
+    if (has_clumps && member_of_id(initial.id[g]) > 0) continue;
+    const Real d = has_clumps ? initial.clump[g].d : initial.diameter[g];
     d2 += d * d;
     d3 += d * d * d;
   }

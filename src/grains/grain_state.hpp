@@ -87,7 +87,7 @@ struct GrainState {
   Kokkos::View<std::uint8_t*> body_touching;             // bit per body; or empty
   std::vector<ExtraGrainArray> extra;                    // see add_extra()
   PairList list;                                         // neighbours and their contact history
-  Real r_max = 0, r_min = 0;                             // [m], of the initial grains of all ranks
+  Real r_max = 0, r_min = 0;                             // [m], of the initial spheres of all ranks
   Real sauter_diameter = 0;    // sum d^3 / sum d^2 of the initial grains [m]
   std::int64_t n_initial = 0;  // grains at t = 0, of all ranks
   std::int64_t last_id = 0;    // largest id before any were fed

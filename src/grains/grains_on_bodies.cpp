@@ -30,9 +30,10 @@ GrainsOnBodies::GrainsOnBodies(const GrainsCase& config, GrainState& grains, boo
 void GrainsOnBodies::begin(const GrainState& grains, int n, Real strongest) {
   if (!any()) return;
   n_steps_ = n;
-  // Unit of the sums: a power of two, so large that the sum of as many pairs as there are grains
-  // fits into 2^62.
-  const Real pairs = 4 * static_cast<Real>(grains.n_initial + grains.feed.n_fed + 1);
+  // Unit of the sums: a power of two, so large that the sum of as many pairs as there are
+  // spheres fits into 2^62.
+  const Real spheres = std::max(grains.shapes.largest_count(), 1);
+  const Real pairs = 4 * spheres * static_cast<Real>(grains.n_initial + grains.feed.n_fed + 1);
   const Real unit = std::exp2(std::ceil(std::log2(n * strongest * pairs)) - 62);
   per_force_ = 1 / unit;
   per_torque_ = per_force_ / std::exp2(std::ceil(std::log2(farthest_)));

@@ -198,6 +198,7 @@ void NeighborList::reserve_pairs(PairList& list) const {
 void NeighborList::rebuild(GrainState& grains, bool drop) {
   const Kokkos::Profiling::ScopedRegion region("list rebuild");
   const ScopedSeconds timer(seconds_);
+  if (rebuilds_ == 0 && grains.clump.size() > 0) check_motions(grains);
   wrap(grains);
   take_memory(grains);
   if (rebuilds_ > 0) collect_history(grains);

@@ -17,11 +17,12 @@
 
 namespace barchan {
 
-/// Grain that comes in: its number, body, and centre [m].
+/// Grain that comes in, or a sphere of a clump that does: its number, body, and centre [m].
 struct NewGrain {
   std::int64_t id = 0;
   GrainBody body;
   Vec3 x;
+  ClumpMotion clump = {};  // where there are clumps
 };
 
 /// Half Verlet list with a skin around each grain (SetSkins), valid until a grain has moved its
@@ -38,12 +39,13 @@ class NeighborList {
   NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF, Real reach = 0,
                Real longest_arm = 0);
 
-  /// Sorts, searches, carries the history over. `drop` removes grains that leave.
+  /// Sorts, searches, carries the history over. `drop` removes grains that leave. The first rebuild
+  /// throws std::logic_error where clumps have not come as their spheres, by as_spheres().
   void rebuild(GrainState& grains, bool drop);
   /// Rebuilds the list without the grains that leave, if there are any.
   void drop_left(GrainState& grains);
-  /// Rebuilds the list with new grains: at rest, without contacts. The first of all ranks takes
-  /// them.
+  /// Rebuilds the list with new grains, or all spheres of new clumps: at rest, without contacts.
+  /// The first of all ranks takes them and gives them to those that own their columns.
   void bring_in(GrainState& grains, const std::vector<NewGrain>& come);
   /// Condition for the grains that leave now.
   CountLeaving leaving(const GrainState& grains) const {

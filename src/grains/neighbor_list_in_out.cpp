@@ -22,7 +22,7 @@ void NeighborList::append_new(GrainState& grains) {
     if constexpr (View::rank() == 1) set_zero(Kokkos::subview(array, entries));
   });
   for (int q = 0; q < n; ++q) {
-    const auto& [id, body, x] = new_[static_cast<std::size_t>(q)];
+    const auto& [id, body, x, clump] = new_[static_cast<std::size_t>(q)];
     const auto set = [entry = begin + q](const auto& array, const auto& value) {
       if (array.size() > 0) Kokkos::deep_copy(Kokkos::subview(array, entry), value);
     };
@@ -30,6 +30,7 @@ void NeighborList::append_new(GrainState& grains) {
     set(grains.id, id);
     set(grains.kind, static_cast<std::uint8_t>(body.kind));
     set(grains.heap, kNoHeap);
+    set(grains.clump, clump);
   }
   grains.n += n;
 }

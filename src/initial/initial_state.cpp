@@ -178,7 +178,8 @@ void check_sizes(const std::vector<SizeClass>& sizes, const Config& config,
 }
 
 void check_free_ids(const Config& config, std::int64_t last, const std::string& source) {
-  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 2;
+  constexpr std::int64_t most_of_spheres = std::numeric_limits<std::int64_t>::max();
+  const std::int64_t most = (has_clumps(*config.grains) ? kLargestNumber : most_of_spheres) / 2;
   if (!config.grains->feed || last <= most) return;
   throw InputError(
       fmt::format("{}: a grain has the id {}: with [grains.feed] it must be at most {}, for grains "

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "kernels/grains/body_contact.hpp"
@@ -128,32 +129,33 @@ void check_outside_bodies(const InitialGrains& grains, const GrainsCase& config,
   const Bodies& bodies = config.bodies;
   const double most = config.grains.frozen ? 0.5 : std::min(config.grains.max_overlap, 0.5);
   for (int b = 0; b < bodies.n; ++b) {
-    std::size_t count = 0, deepest = 0;
+    std::set<std::int64_t> inside;
+    std::size_t deepest = 0;
     double overlap = 0;
     for (std::size_t g = 0; g < grains.size(); ++g) {
       const double in = 0.5 - bodies.body[b].distance(grains.x[g]) / grains.diameter[g];
-      if (in > most) ++count;
+      if (in > most) inside.insert(number_of(grains, g));
       if (in > overlap) overlap = in, deepest = g;
     }
-    if (count == 0) continue;
+    if (inside.empty()) continue;
     const Vec3& x = grains.x[deepest];
     throw InputError(fmt::format(
         "{}: {} in body \"{}\" by more than {:.3g} % of the diameter{}, the deepest grain {} at "
         "({:.6g}, {:.6g}, {:.6g}) m by {:.3g} %: take out the grains there, or move the body "
         "(body.{}.centre, body.{}.base)",
-        source, count == 1 ? "a grain lies" : fmt::format("{} grains lie", count),
+        source, inside.size() == 1 ? "a grain lies" : fmt::format("{} grains lie", inside.size()),
         config.body_names[static_cast<std::size_t>(b)], 100 * most,
         config.grains.frozen ? "" : " (grains.max_overlap)", number_of(grains, deepest), x.x, x.y,
         x.z, 100 * overlap, b + 1, b + 1));
   }
 }
 
-void check_feed_places(const GrainsCase& config, double d_min, double d_max) {
+void check_feed_places(const GrainsCase& config, const Widths& widths) {
   if (config.bodies.n == 0 || !config.grains.feed) return;
   if (config.grains.boundary_x == GrainBoundaryX::follow) return;  // its places move
   const FeedConfig& feed = *config.grains.feed;
-  for (const double d : {d_min, d_max})
-    if (!in_bodies_everywhere(feed, config.size[2], d / 2, config.bodies)) return;
+  for (const double width : {widths.least, widths.most})
+    if (!in_bodies_everywhere(feed, config.size[2], width / 2, config.bodies)) return;
   throw InputError(fmt::format(
       "[grains.feed] x = {:.6g}, height = {:.6g}: no grain could come in: all across the stream a "
       "body is in its place; move the one or the other (grains.feed.across, body.1.centre)",

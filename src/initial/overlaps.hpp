@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include "src/grains/grains_case.hpp"
-#include "src/grains/initial_grains.hpp"
+#include "src/grains/clumps.hpp"
 
 namespace barchan {
 
@@ -21,7 +20,7 @@ void check_outside_bodies(const InitialGrains& grains, const GrainsCase& config,
                           const std::string& source);
 
 /// Refuses a feed none of whose places is free of bodies, neither for the smallest grain nor for
-/// the largest; diameters in [m]. Throws InputError.
-void check_feed_places(const GrainsCase& config, double d_min, double d_max);
+/// the largest, by the spheres around them. Throws InputError.
+void check_feed_places(const GrainsCase& config, const Widths& widths);
 
 }  // namespace barchan

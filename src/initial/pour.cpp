@@ -201,6 +201,12 @@ void add_heap(const HeapConfig& config, const Heap& heap, const std::array<doubl
   }
 }
 
+/// Diameter of the sphere around a poured grain [m].
+double width_of(const std::vector<SizeClass>& sizes, const InitialGrains& grains, std::size_t g) {
+  const auto size = std::ranges::find(sizes, grains.kind_of(g), &SizeClass::kind);
+  return (size != sizes.end() ? size->wide : 1) * grains.diameter[g];
+}
+
 /// Moves the grains from entry `begin` on together.
 void pack(const HeapConfig& config, const Heap& heap, std::size_t begin, InitialGrains& grains) {
   // Density of the packing: 0.64 of the volume, as in a heap. Displaced so far, a third of the 12
@@ -212,10 +218,11 @@ void pack(const HeapConfig& config, const Heap& heap, std::size_t begin, Initial
   for (std::size_t g = begin; g < grains.size(); ++g) {
     Vec3 x = heap.centre + closer * (grains.x[g] - heap.centre);
     x = x + Vec3{displaced(), displaced(), displaced()};
-    grains.x[g] = {x.x, std::max(x.y, grains.diameter[g] / 2), x.z};
-    if (!heap.in_body(grains.x[g] - heap.centre, grains.diameter[g])) continue;
+    const double width = width_of(config.sizes, grains, g);
+    grains.x[g] = {x.x, std::max(x.y, width / 2), x.z};
+    if (!heap.in_body(grains.x[g] - heap.centre, width)) continue;
     const ToSurface at = heap.bodies.nearest(grains.x[g]).surface;
-    grains.x[g] += (grains.diameter[g] / 2 - at.distance) * at.normal;
+    grains.x[g] += (width / 2 - at.distance) * at.normal;
   }
 }
 

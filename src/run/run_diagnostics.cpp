@@ -5,7 +5,6 @@
 #include "src/case/derived.hpp"
 #include "src/coupling/grain_forces.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
-#include "src/grains/clumps.hpp"
 #include "src/parallel/communicator.hpp"
 #include "src/parallel/mirror.hpp"
 #include "src/parallel/reduce.hpp"
@@ -43,7 +42,7 @@ RunDiagnostics::RunDiagnostics(const RunState& run) : run_(run), tracker_(dune_d
 }
 
 std::vector<DuneRecord> RunDiagnostics::find_dunes() {
-  const std::vector<GrainSample> grains = gathered_grains(whole_grains(*run_.state.grains));
+  const std::vector<GrainSample> grains = gathered_grains(*run_.state.grains);
   largest_dune_.reset();
   heap_shares_.clear();
   if (rank_of(run_.ranks) != 0) return {};
@@ -58,11 +57,11 @@ std::vector<DuneRecord> RunDiagnostics::find_dunes() {
 }
 
 std::vector<int> RunDiagnostics::dune_labels() const {
-  const GrainState grains = whole_grains(*run_.state.grains);
+  const GrainState& grains = *run_.state.grains;
   const std::vector<GrainSample> all = gathered_grains(grains);
   std::vector<int> labels;
   if (rank_of(run_.ranks) == 0) labels = tracker_.labels(all);
-  return from_rank_0(run_.ranks, labels, grains.n);
+  return from_rank_0(run_.ranks, labels, grain_count(grains));
 }
 
 void RunDiagnostics::place_window_edge(GrainState& grains) const {
@@ -88,7 +87,7 @@ void RunDiagnostics::sample() {
   const std::vector<GrainSample> all = gathered_grains(grains);
   const auto mine = host_copy(mean_resultant_force(grains, run_.coupled_step.dt()));
   const auto force =
-      on_rank_0(grains.ranks, std::vector<Vec3>(mine.data(), mine.data() + grains.n));
+      on_rank_0(grains.ranks, std::vector<Vec3>(mine.data(), mine.data() + grain_count(grains)));
   if (rank_of(run_.ranks) == 0) force_map_->sample(run_.clock.time(), all, force);
 }
 

@@ -9,6 +9,8 @@
 #include "src/case/load.hpp"
 #include "src/case/resolved.hpp"
 #include "src/fluid/domain.hpp"
+#include "src/grains/clumps.hpp"
+#include "src/grains/grain_feed.hpp"
 #include "src/initial/overlaps.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/restart/grain_state_file.hpp"
@@ -30,6 +32,15 @@ std::vector<std::string> changes_since(const CheckpointReader& file, const Confi
       fmt::format("cannot restart from {}: it does not fit this case\n  {}\nkeep these keys "
                   "as they were, or start anew",
                   file.path().string(), fmt::join(conflicts, "\n  ")));
+}
+
+/// Widths of the grains that a feed may bring in. All ranks call it together.
+Widths widths_to_feed(const GrainConfig& config, const GrainState& grains) {
+  if (!has_clumps(config)) return {.least = 2 * grains.r_min, .most = 2 * grains.r_max};
+  std::vector<SizeClass> sizes;
+  for (const GrainBody& body : grains.feed.next_id > 0 ? grains.feed.bodies : bodies_of(grains))
+    sizes.push_back({.diameter = 2 * body.r, .kind = static_cast<int>(body.kind)});
+  return sizes.empty() ? Widths() : widths_of(config, sizes);
 }
 
 /// State that a run starts from; a restart brings its own number of grains.
@@ -96,7 +107,7 @@ void RunState::go_on_from(const CheckpointReader& file) {
 void RunState::check_feed(const std::filesystem::path& file) const {
   const GrainState& grains = *state.grains;
   check_free_ids(config, last_id(grains), file.string());
-  check_feed_places(the_case.grains(), 2 * grains.r_min, 2 * grains.r_max);
+  check_feed_places(the_case.grains(), widths_to_feed(*config.grains, grains));
   const bool no_body = grains.feed.next_id == 0 ? n_grains == 0 : grains.feed.bodies.empty();
   if (no_body && config.grains->feed->amount == FeedAmount::given)
     throw InputError(

@@ -1,10 +1,12 @@
 // Clumps of spheres over ranks against the same clumps on one rank, and across a restart.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 
 #include "src/base/report.hpp"
+#include "src/grains/grain_feed.hpp"
 #include "src/initial/grain_files.hpp"
 #include "src/parallel/reduce.hpp"
 #include "src/run/simulation.hpp"
@@ -139,6 +141,45 @@ TEST(ClumpsOverRanks, MomentumStays) {
   EXPECT_GT(bench.solver.contacts(bench.state).n_contacts, 5);
 }
 
+/// The feed brings the same clumps in at the same places, turned alike, and those that left with
+/// the same sizes.
+TEST(ClumpsOverRanks, AFeedBringsInWhatItBringsInOnOneRank) {
+  for (const FeedAmount amount : {FeedAmount::given, FeedAmount::as_lost}) {
+    Config c = clump_box({0.004, 0.004, 0.0048}, NamedClump::cube);
+    c.grains->boundary_x = GrainBoundaryX::exit;
+    c.grains->kinds.resize(2);
+    c.grains->kinds[0].name = "cube", c.grains->kinds[1].name = "sphere";
+    std::swap(c.grains->kinds[0].shape, c.grains->shape);
+    c.grains->feed = FeedConfig{.amount = amount, .rate = 2e4, .x = 5e-5, .height = 3e-3};
+    c.time.fluid_step = 1e-4;
+    InitialGrains grains = loose_clumps(600, c.size, 0.8);
+    for (int g = 0; g < 600; ++g) grains.kind.push_back(g % 3 == 2 ? 1 : 0);
+    SharedClumps s(c, grains);
+    GrainFeed of_whole(c), of_shared(c);
+    for (int step = 0; step < 20; ++step) {
+      s.advance(25, 4e-6);
+      of_whole.advance(s.whole.state, s.whole.solver.list());
+      of_shared.advance(s.shared.state, s.shared.solver.list());
+    }
+    const FeedState &a = s.whole.state.feed, &b = s.shared.state.feed;
+    EXPECT_GT(a.n_fed, 10);
+    EXPECT_EQ(a.n_fed, b.n_fed);
+    EXPECT_EQ(a.n_tries, b.n_tries);
+    EXPECT_EQ(a.waiting, b.waiting);
+    EXPECT_EQ(a.bodies, b.bodies);
+    EXPECT_EQ(sum_over(MPI_COMM_WORLD, s.shared.state.n), s.whole.state.n);
+    const std::int64_t n = sum_over(MPI_COMM_WORLD, grain_count(s.shared.state)),
+                       n_left = sum_over(MPI_COMM_WORLD, s.shared.state.n_left);
+    EXPECT_GT(n_left, 5);
+    EXPECT_EQ(n + n_left, 600 + b.n_fed);
+    const auto off = s.off();  // infinite if the numbers are not the same
+    EXPECT_LT(off[0], 1e-6);
+    if (is_first())
+      std::printf("[ measured ] %d ranks: %lld fed, x %.1e\n", rank_count(MPI_COMM_WORLD),
+                  static_cast<long long>(a.n_fed), off[0]);
+  }
+}
+
 /// A heap of cubes in the middle of a wide box, dry.
 Config cubes_config(double end) {
   Config c;
@@ -213,6 +254,64 @@ TEST(ClumpsOverRanks, CubesComeToRestAndARestartKeepsTheBits) {
   EXPECT_LT(fastest, 2e-4);  // fell at 0.1 m/s
   EXPECT_LT(highest, 1.2e-3);
   EXPECT_LT(momentum, 1e-3 * mass * 1e-4 * 0.1);
+}
+
+/// Cubes that are fed while others leave: a run in two pieces has the bits of one in a single
+/// piece.
+TEST(ClumpsOverRanks, ARestartKeepsTheBitsOfAFeed) {
+  if (rank_count(MPI_COMM_WORLD) > 2) GTEST_SKIP() << "on 1 and 2 ranks";
+  for (const FeedAmount amount : {FeedAmount::given, FeedAmount::as_lost}) {
+    const test::SharedFolder folder;
+    const auto fed = [&](double end) {
+      Config c = cubes_config(end);
+      c.grains->boundary_x = GrainBoundaryX::exit;
+      c.grains->gravity = {20, -9.81, 0};  // steeper than they rest on
+      c.grains->feed = FeedConfig{.amount = amount, .x = 1e-3};
+      if (amount == FeedAmount::given) c.grains->feed->rate = 500;
+      return c;
+    };
+    const auto at_once = run(fed(0.06), folder.path() / "whole");
+    const auto middle = run(fed(0.032), folder.path() / "parts");
+    const auto in_parts = run(fed(0.06), folder.path() / "parts", middle);
+    if (!is_first()) continue;
+    test::expect_same_state(at_once, in_parts);
+    const auto number = [](const std::filesystem::path& file, const std::string& name) {
+      return CheckpointReader(file).integer(name);
+    };
+    EXPECT_GT(number(middle, "feed/n_fed"), 3);
+    EXPECT_GT(number(at_once, "feed/n_fed"), number(middle, "feed/n_fed"));
+    EXPECT_GT(number(at_once, "grains/n_left"), number(middle, "grains/n_left"));
+    const Hdf5File of(at_once, Hdf5File::Mode::read);
+    const auto n_spheres = static_cast<std::int64_t>(of.read<std::int64_t>("grains/id").size());
+    EXPECT_EQ(n_spheres,
+              8 * (24 + number(at_once, "feed/n_fed") - number(at_once, "grains/n_left")));
+  }
+}
+
+/// A feed that is new at a restart looks for a place for whole cubes: beside a body that leaves
+/// 0.1 mm on each side spheres of theirs would have one.
+TEST(ClumpsOverRanks, AFeedThatIsNewAtARestartNeedsAPlaceForWholeClumps) {
+  const test::SharedFolder folder;
+  const auto beside = [&](double gap) {
+    Config c = cubes_config(0.001);
+    c.grains->boundary_x = GrainBoundaryX::exit;
+    c.bodies = {{.name = "step",
+                 .shape = BodyShape::of<shapes::Box>(),
+                 .centre = {1e-3, c.size[2] / 2},
+                 .height = 1e-3,
+                 .size = {1e-3, c.size[2] - 2 * gap}}};
+    return c;
+  };
+  const auto refusal = [&](double gap) {
+    Config c = beside(gap);
+    const std::string name = fmt::format("{:.3g}", gap);
+    const auto first = run(c, folder.path() / name);
+    c.time.end = 0.002;
+    c.grains->feed = FeedConfig{.rate = 100, .x = 1e-3};
+    return message_of([&] { run(c, folder.path() / (name + " fed"), first); });
+  };
+  EXPECT_NE(refusal(1e-4).find("no grain could come in"), std::string::npos);
+  EXPECT_EQ(refusal(1.8e-4), "");
 }
 
 }  // namespace

@@ -15,6 +15,11 @@ inline std::vector<ClumpSphere> crooked() {
   return {{{0, 0, 0}, 1}, {{1.2, 0, 0}, 0.8}, {{0.3, 0.9, 0.1}, 0.6}};
 }
 
+/// Four spheres in a row.
+inline std::vector<ClumpSphere> rod() {
+  return {{{0, 0, 0}, 1}, {{2, 0, 0}, 1}, {{4, 0, 0}, 1}, {{6, 0, 0}, 1}};
+}
+
 /// A dry case of clumps without gravity in a box of 10 mm.
 inline Config clump_config(const std::vector<ClumpSphere>& spheres) {
   Config c = grain_config();

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "kernels/grains/sphere.hpp"
+#include "src/case/grain_checks.hpp"
 #include "src/case/heaps.hpp"
 #include "src/case/resolved.hpp"
 #include "src/grains/kinds.hpp"
@@ -15,6 +16,7 @@
 #include "tests/support/clumps.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/packing.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
 namespace {
@@ -89,21 +91,102 @@ TEST(ClumpsOfACase, MistakesAreToldWhereTheyAre) {
   tells("shape = \"clump\"\nspheres = [[0, 0, 0, 1], [3, 0, 0, 1]]\n",
         "11: [grains] spheres = [[0, 0, 0, 1], [3, 0, 0, 1]]: must be a whole: sphere 2 of a "
         "clump touches none that is joined to sphere 1");
-  tells(kCube + "[grains.feed]\nrate = 1.0\n",
-        "10: [grains] shape = \"clump\": must be \"sphere\" with [grains.feed], which brings in "
-        "spheres alone");
   EXPECT_EQ(problems(coupled_case("[[0.2e-3, 100]]\nshape = \"clump\"\nclump = \"cube\"")),
             only("case.toml:11: [grains] shape = \"clump\": must be \"sphere\" with [fluid]: "
                  "clumps in water are not there yet"));
 }
 
-TEST(ClumpsOfACase, ThoseWiderThanHalfAPeriodAreRefused) {
-  Config c = case_of(
-      "shape = \"clump\"\nspheres = [[0, 0, 0, 1], [2, 0, 0, 1], [4, 0, 0, 1], "
-      "[6, 0, 0, 1]]\nboundary_x = \"periodic\"\n");
-  // Four spheres in a row: 4 of their diameters long, each of d / 4^(1/3).
-  const double wide = 4 / std::cbrt(4.0);
-  EXPECT_NEAR(width_of(c.grains->shape), wide, 1e-9);
+/// What is said of the grains of a case by their sizes, about any of these keys.
+std::vector<std::string> said_of_sizes(const Config& c, const std::vector<SizeClass>& sizes,
+                                       const std::string& key) {
+  std::vector<std::string> said;
+  for (const Finding& f : check_grain_sizes(c, sizes))
+    if (f.keys.front() == key) said.push_back(f.message);
+  return said;
+}
+
+/// Rods are 2.52 d long: four diameters of their spheres, of which each is d / 4^(1/3).
+TEST(ClumpsOfACase, ThoseWiderThanTheBoxOrHalfAPeriodAreRefused) {
+  Config c = clump_config(rod());
+  const double wide = 4 / std::cbrt(4.0) * 2e-4;
+  EXPECT_NEAR(width_of(c.grains->shape) * 2e-4, wide, 1e-9 * wide);
+  const std::vector<SizeClass> sizes{{.diameter = 2e-4, .count = 10}, {1e-4, 10}};
+  const auto said = [&] { return said_of_sizes(c, sizes, "domain.size"); };
+  const auto one = [](const std::string& message) { return std::vector<std::string>{message}; };
+  EXPECT_TRUE(said().empty());
+  c.size[1] = 1.001 * wide;
+  EXPECT_TRUE(said().empty());
+  c.size[1] = 0.999 * wide;
+  EXPECT_EQ(said(), one("must be above 0.000504 m, the width of the largest clump"));
+  c.size[1] = 0.01;
+  const auto periods = [&] {
+    return one(
+        "must be at least 0.00109 m in a periodic direction: a "
+        "clump would meet its own image");
+  };
+  const double least = 2 * (wide + c.grains->skin);
+  c.grains->boundary_z = GrainBoundaryZ::periodic;
+  c.size[2] = 1.001 * least;
+  EXPECT_TRUE(said().empty());
+  c.size[2] = 0.999 * least;
+  EXPECT_EQ(said(), periods());
+  c.grains->boundary_z = GrainBoundaryZ::wall;
+  EXPECT_TRUE(said().empty());
+  c.size[0] = 0.999 * least;
+  EXPECT_TRUE(said().empty());
+  c.grains->boundary_x = GrainBoundaryX::periodic;
+  EXPECT_EQ(said(), periods());
+  c.grains->shape = {};
+  EXPECT_TRUE(said().empty()) << "spheres have room";
+}
+
+/// Grains that have not gone through as_spheres() have no motion of clumps, whatever their kind.
+TEST(ClumpsOfACase, GrainsThatAreNoSpheresOfClumpsAreRefused) {
+  Config c = clump_config(NamedClump::cube);
+  InitialGrains grains;
+  for (const Real x : {2e-3, 4e-3}) add_grain(grains, 2e-4, {x, 2e-3, 2e-3});
+  const auto said = [&] { return message_of([&] { GrainBench(c, grains); }); };
+  const std::string why =
+      "2 of 2 grains are not spheres of a clump, and the case has clumps: its grains must go "
+      "through as_spheres()";
+  EXPECT_EQ(said(), why);
+  c.grains->kinds.resize(2);
+  c.grains->kinds[0].name = "sphere", c.grains->kinds[1].name = "cube";
+  std::swap(c.grains->kinds[1].shape, c.grains->shape);
+  EXPECT_EQ(said(), why) << "spheres in a case that has clumps, too";
+  EXPECT_NO_THROW(ClumpBench(c, grains));
+}
+
+/// Rods do not shorten the step of the spheres beside them, which turn less easily.
+TEST(ClumpsOfACase, StableStepIsThatOfEachKind) {
+  Config c = grain_config();
+  InitialGrains grains;
+  for (const Real x : {2e-3, 2.19e-3, 6e-3}) add_grain(grains, 2e-4, {x, 2e-3, 2e-3});
+  const GrainBench spheres(c, grains);
+  c.grains->kinds.resize(2);
+  c.grains->kinds[0].name = "sphere", c.grains->kinds[1].name = "rod";
+  c.grains->kinds[1].shape = {.shape = GrainShape::clump, .spheres = rod()};
+  grains.kind = {0, 0, 1};
+  const ClumpBench apart(c, grains);
+  const Real step = spheres.solver.stable_step(spheres.state);
+  ASSERT_TRUE(std::isfinite(step));
+  EXPECT_DOUBLE_EQ(apart.solver.stable_step(apart.state), step);
+  grains.kind = {1, 0, 0};
+  grains.q.assign(3, {1, 0, 0, 0});
+  grains.x[0].x = 2.19e-3 - 1e-4 - 1.99e-4 / 2 * width_of(c.grains->kinds[1].shape);
+  const ClumpBench beside(c, grains);
+  EXPECT_LT(beside.solver.stable_step(beside.state), 0.7 * step);
+}
+
+/// Beds that are timed for an estimate: no sphere of them lies below the floor by its centre.
+TEST(ClumpsOfACase, PackedBedsStandOnTheFloor) {
+  const Config c = case_of(
+      "shape = \"clump\"\nspheres = [[0, 0, 0, 1], [2, 0, 0, 1], "
+      "[4, 0, 0, 1], [6, 0, 0, 1]]\n");
+  const InitialGrains spheres = spheres_at_start(packed_grains(poured_heaps(c), c.size), c);
+  ASSERT_EQ(spheres.size(), 400u);
+  for (std::size_t s = 0; s < spheres.size(); ++s)
+    EXPECT_GE(spheres.x[s].y, spheres.diameter[s] / 2 * (1 - 1e-9));
 }
 
 /// A clump of one sphere, wherever it stands, is a sphere: the same bits in each step.

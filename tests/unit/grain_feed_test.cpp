@@ -226,7 +226,7 @@ TEST(GrainFeed, IsRefusedWhereABodyTakesAllItsPlaces) {
                .centre = {1e-3, 2e-3},
                .height = 1e-3,
                .size = {1e-3, 4e-3}}};
-  const auto said = [&] { return message_of([&] { check_feed_places(c, kSmall, kLarge); }); };
+  const auto said = [&] { return message_of([&] { check_feed_places(c, {kSmall, kLarge}); }); };
   EXPECT_NE(said().find("no grain could come in: all across the stream a body is in its place"),
             std::string::npos)
       << said();
