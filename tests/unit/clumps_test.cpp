@@ -91,9 +91,14 @@ TEST(ClumpsOfACase, MistakesAreToldWhereTheyAre) {
   tells("shape = \"clump\"\nspheres = [[0, 0, 0, 1], [3, 0, 0, 1]]\n",
         "11: [grains] spheres = [[0, 0, 0, 1], [3, 0, 0, 1]]: must be a whole: sphere 2 of a "
         "clump touches none that is joined to sphere 1");
-  EXPECT_EQ(problems(coupled_case("[[0.2e-3, 100]]\nshape = \"clump\"\nclump = \"cube\"")),
-            only("case.toml:11: [grains] shape = \"clump\": must be \"sphere\" with [fluid]: "
-                 "clumps in water are not there yet"));
+  const std::string cubes = "[[0.2e-3, 100]]\nshape = \"clump\"\nclump = \"cube\"";
+  EXPECT_EQ(problems(coupled_case(cubes)), std::vector<std::string>{});
+  EXPECT_EQ(problems(coupled_case(cubes + "\n[coupling]\nscheme = \"resolved\"")),
+            only("case.toml:11: [grains] shape = \"clump\": must be \"sphere\" with scheme = "
+                 "\"resolved\", whose markers lie on spheres"));
+  EXPECT_EQ(problems(coupled_case("[[0.2e-3, 100]]\n[coupling]\nshape_drag = \"ganser\"")),
+            only("case.toml:12: [coupling] shape_drag = \"ganser\": must be absent unless shape = "
+                 "\"clump\""));
 }
 
 /// What is said of the grains of a case by their sizes, about any of these keys.
