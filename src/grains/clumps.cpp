@@ -162,6 +162,7 @@ GrainState whole_grains(const GrainState& grains) {
   if (grains.kind.size() > 0) whole.kind = Kokkos::View<std::uint8_t*>("kind", size);
   if (grains.heap.size() > 0) whole.heap = Kokkos::View<std::uint8_t*>("heap", size);
   whole.clump = Kokkos::View<ClumpMotion*>("clump", size);
+  whole.shapes = grains.shapes;
   whole.kind_names = grains.kind_names, whole.heap_names = grains.heap_names;
   whole.fluid.has_fluid = grains.fluid.has_fluid;
   whole.r_max = grains.r_max, whole.r_min = grains.r_min;

@@ -12,6 +12,7 @@ import numpy as np
 from barchan.errors import BarchanError, MissingData, seconds
 from barchan.dune import encounters, obstacles
 from barchan.io import horn_lengths, labelled
+from barchan.io.clumps import spheres_of
 from barchan.io.frames import FrameFile, names_of
 from barchan.io.progress import Progress
 from barchan.io.run_folder import RunFolder
@@ -195,6 +196,35 @@ class Run(RunFolder):
         file = self.need_grains()
         return self._grains_of(file, file.index(t, frame))
 
+    def spheres(self, t: float | None = None, frame: int | None = None) -> DataFrame:
+        """The spheres that the grains of one frame consist of: of clumps several, else the grains themselves.
+
+        Parameters
+        ----------
+        t : float, optional
+            Time [s], of which the nearest frame is taken.
+        frame : int, optional
+            Number of the frame, from the end if negative. Without `t` and `frame` the last is taken.
+
+        Returns
+        -------
+        pandas.DataFrame
+            x, y, z, d [m], a row for each sphere, indexed by the id of its grain; attrs as of `grains`. At a periodic
+            boundary spheres stay with their grain.
+
+        Raises
+        ------
+        MissingData
+            Where grains.h5 has no frame.
+        BarchanError
+            Where no frame is near `t`, there is none of that number, or both are given.
+        """
+        grains = self.frame(self.need_grains().index(t, frame))
+        spheres = spheres_of(grains)
+        columns = {"id": grains.id[spheres.grain], "x": spheres.x, "d": spheres.d}
+        about = {"id": ("1", "number of the grain"), "x": ("m", "position of the centre"), "d": ("m", "diameter")}
+        return labelled.grains_frame(grains.time, columns, about)
+
     def frames(self, progress: bool = True) -> Iterator[DataFrame]:
         """The grains of every frame in turn; only one frame is in memory.
 
@@ -352,7 +382,8 @@ class Run(RunFolder):
         -------
         pyvista.MultiBlock
             "grains": a PolyData of their centres (N, 3) [m], with d and all else as point data. Where the run has
-            fields, "flow": a RectilinearGrid with cell data, of the frame nearest in time.
+            clumps, "spheres": likewise their spheres, with d and id. Where it has fields, "flow": a RectilinearGrid
+            with cell data, of the frame nearest in time.
 
         Raises
         ------
