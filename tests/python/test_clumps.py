@@ -1,5 +1,6 @@
 """Spheres of clumps in frames, pictures, files for VTK and the report."""
 
+import base64
 import json
 import shutil
 from dataclasses import replace
@@ -15,6 +16,7 @@ from barchan import vtk
 from barchan.figures import grain_image
 from barchan.io.clumps import Shapes, rotated, spheres_of
 from barchan.io.frames import Grains
+from barchan.report import grains as report_grains
 
 
 @pytest.fixture(scope="module")
@@ -41,13 +43,13 @@ def test_a_quarter_of_a_turn():
 def test_spheres_of_a_frame(run):
     grains = run.frame(1)
     spheres = spheres_of(grains)
-    assert len(spheres.d) == np.sum(1 + grains.id % 2)
+    assert len(spheres.d) == np.sum(1 + grains.kind)
     volume = np.bincount(spheres.grain, spheres.d ** 3)
     assert volume == pytest.approx(grains.d ** 3)
     for axis in range(3):
         middle = np.bincount(spheres.grain, spheres.x[:, axis]) / np.bincount(spheres.grain)
         assert middle == pytest.approx(grains.x[:, axis], abs=1e-15)
-    assert np.ptp(spheres.x[spheres.grain == 3], axis=0)[1] == 0  # turned about the vertical
+    assert np.ptp(spheres.x[spheres.grain == 5], axis=0)[1] == 0  # turned about the vertical
 
 
 def test_grains_without_orientation_are_spheres_themselves():
@@ -110,6 +112,24 @@ def test_files_for_vtk_have_the_spheres(run, tmp_path, temporal):
         np.testing.assert_array_equal(arrays["id"], grains.id[spheres.grain])
         np.testing.assert_array_equal(arrays["kind"], grains.kind[spheres.grain])
         assert "orientation" not in arrays and arrays["u"].shape == (len(spheres.d), 3)
+
+
+def test_the_report_has_orientations(run):
+    """The data of the page lead to the spheres: three parts of a quaternion, the fourth positive."""
+    facts, data = report_grains.pack(run)
+    words = np.frombuffer(base64.b64decode(data), "<u2")
+    n, frames = facts["n"], len(facts["times"])
+    assert len(words) == n * (1 + 6 * frames + 1)
+    shown = words[n:n * (1 + 6 * frames)].reshape(frames, 6, n)[1]
+    parts = shown[3:].T / 65534 * 2 - 1
+    q = np.column_stack([np.sqrt(np.clip(1 - np.sum(parts**2, axis=1), 0, 1)), parts])
+    grains = run.frame(1)
+    ids, _ = report_grains.kept_ids(run, [0, 1, 2])
+    there = shown[0] != 65535
+    rows = np.searchsorted(grains.id, ids[there])
+    assert np.abs(np.sum(q[there] * grains.orientation[rows], axis=1)) == pytest.approx(1, abs=1e-3)
+    assert len(facts["spheres"]) == 2 and len(facts["spheres"][1]) == 2
+    assert report_grains.pack(barchan.Run(fake()))[0]["spheres"] == []
 
 
 def test_without_clumps_there_are_no_files_of_spheres(tmp_path):

@@ -146,9 +146,9 @@ SPHERES = {"kind": [0, 1, 1], "centre": [[0, 0, 0], [-(0.5 ** (4 / 3)), 0, 0], [
 
 
 def clumps(number):
-    """Kinds and orientations of grains: every second one is a dimer, turned about the vertical by its number."""
+    """Kinds and orientations of grains: every third one is a dimer, turned about the vertical by its number."""
     half = 0.05 * number
-    return {"kind": number % 2, "orientation": np.stack([np.cos(half), 0 * half, np.sin(half), 0 * half], axis=1)}
+    return {"kind": number % 3 // 2, "orientation": np.stack([np.cos(half), 0 * half, np.sin(half), 0 * half], axis=1)}
 
 
 def write_grains(folder, cut, frames=FRAMES, heaps=False, with_clumps=False):
