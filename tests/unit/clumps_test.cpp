@@ -255,9 +255,9 @@ TEST(ClumpsOfACase, TheirSpheresFollowFromTheFile) {
                            kCube + "sizes = [[0.3e-3, 1]]\n");
   InitialGrains grains;
   grains.kind_names = {"a", "b"};
-  for (const std::uint8_t kind : {0, 1}) {
+  for (const int kind : {0, 1}) {
     add_grain(grains, 2e-4 + 1e-4 * kind, {1e-3 + 2e-3 * kind, 2e-3, 3e-3});
-    grains.kind.push_back(kind);
+    grains.kind.push_back(static_cast<std::uint8_t>(kind));
   }
   const ClumpBench bench(c, grains);
   const TemporaryFolder folder;
