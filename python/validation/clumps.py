@@ -1,8 +1,8 @@
 """clumps: slopes of heaps and solid fractions of beds by friction and shape, from the runs of clump-heap-study.toml and
 clump-bed-study.toml. `--keep` takes the folder that has both, runs/validation.
 
-Slopes (degrees) are those of the surface of a ridge, solid fractions those of the middle of a bed. Means over
-realisations, and their standard deviations. `eccentricity`: how far the normal of a contact passes by the centre of a
+Slopes (degrees) are those of the surface of a ridge on a rough plate, `slope_smooth` on a smooth one; solid fractions
+are those of the middle of a bed. Means over realisations, and their standard deviations. `eccentricity`: how far the normal of a contact passes by the centre of a
 grain, over d/2, in the mean over its surface. It is what Wensrich & Katterfeld (2012) give spheres as rolling friction
 in place of a shape.
 """
@@ -124,7 +124,8 @@ def save(runs, folder):
             if gap_of(file.parent):
                 continue
             run = RunFolder(file.parent)
-            found.setdefault((what, *kind_of(run)), []).append(measure(run))
+            smooth = what == "slope" and run.config["grains"]["floor"] == "smooth"
+            found.setdefault((what + "_smooth" * smooth, *kind_of(run)), []).append(measure(run))
     if run is None:
         raise MissingData(f"needs finished runs of clump-heap-study.toml or clump-bed-study.toml in {runs}")
     lines = [f"{what},{shape},{rolling:g},{sliding:g},{off:.4f},{np.mean(values):.5g},"
@@ -155,7 +156,7 @@ def summary(folder):
     """Means of each shape; for clumps the rolling friction of spheres with the same slope, over the eccentricity."""
     table = tables.read_saved(folder, NAME)
     shapes = list(dict.fromkeys(table["shape"]))
-    for what in ("slope", "fraction"):
+    for what in ("slope_smooth", "slope", "fraction"):
         for shape in shapes:
             for rolling in MU_R if shape == SPHERE else MU_R[:1]:
                 rows = rows_of(table, what, shape, rolling)
@@ -171,15 +172,15 @@ def summary(folder):
 
 
 def draw(folder):
-    """(a) Slopes of spheres beside Zhou et al.; (b) of clumps; (c) by eccentricity or rolling friction; (d) beds."""
+    """Slopes of (a) spheres on a smooth plate, beside Zhou et al., (b) clumps, (c) by rolling friction or eccentricity;
+    (d) solid fractions."""
     table = tables.read_saved(folder, NAME)
     figure, panels = style.panels(None, 1, 4, figsize=(style.FULL_WIDTH, 2.6))
     spheres, clumps, both, beds = panels.ravel()
     fine = np.linspace(0.08, 0.55, 50)
-    for rolling, colour in zip(MU_R, style.GROUPS):
-        errorbar(spheres, rows_of(table, "slope", SPHERE, rolling), colour, f"$\\mu_r$ = {rolling:g}")
-        if rolling:
-            spheres.plot(fine, zhou(fine, rolling), color=colour, ls=(0, (4, 1.5)), lw=0.8)
+    for rolling, colour in zip(MU_R[1:], style.GROUPS):
+        errorbar(spheres, rows_of(table, "slope_smooth", SPHERE, rolling), colour, f"$\\mu_r$ = {rolling:g}")
+        spheres.plot(fine, zhou(fine, rolling), color=colour, ls=(0, (4, 1.5)), lw=0.8)
     for shape, colour in COLOURS.items():
         errorbar(clumps, rows_of(table, "slope", shape), colour, shape)
         errorbar(beds, rows_of(table, "fraction", shape), colour, shape)
