@@ -3,8 +3,8 @@ clump-bed-study.toml. `--keep` takes the folder that has both, runs/validation.
 
 Slopes (degrees) are those of the surface of a ridge on a rough plate, `slope_smooth` on a smooth one; solid fractions
 are those of the middle of a bed. Means over realisations, and their standard deviations. `eccentricity`: how far the normal of a contact passes by the centre of a
-grain, over d/2, in the mean over its surface. It is what Wensrich & Katterfeld (2012) give spheres as rolling friction
-in place of a shape.
+grain, over d/2, in the mean over its surface (Wensrich & Katterfeld 2012). That of rolling friction is mu_r/2: its
+torque has the arm mu_r R, and R of two equal spheres is d/4.
 """
 
 from pathlib import Path
@@ -26,19 +26,19 @@ LAYER = (2.5, 3.0)    # from the floor, from the top of a bed, in diameters: whe
 VOXEL = 0.05          # of a diameter
 SPHERE, MU, MU_R = "sphere", (0.1, 0.3, 0.5), (0.0, 0.1, 0.3)
 
-# Solid fractions that are published, loose and dense: sources in docs/validation.md.
-PUBLISHED = {"sphere": (0.593, 0.639), "dimer": (None, 0.707), "tetrahedron": (0.51, 0.64), "cube": (0.54, 0.67),
-             "sand": (0.50, 0.61)}
+# Published solid fractions (sliding friction, solid fraction), and of sand from loose to dense: docs/validation.md.
+PUBLISHED = {"sphere": [(0, 0.639), (0.3, 0.593)], "dimer": [(0, 0.707)]}
+SAND = (0.50, 0.61)
 COLOURS = dict(zip(("sphere", "dimer", "tetrahedron", "cube", "sand"), style.GROUPS))
 
 
 def zhou(sliding, rolling, wall=0.5):
-    """Angle of repose of spheres [degrees], Zhou et al. (2002), of rolling friction alike at grains and plate.
+    """Angle of repose of spheres [degrees], Zhou et al. (2002), of the same mu_r between grains and at the plate.
 
-    Their rolling friction is a length and their d in mm, both in mm: with `rolling` over d/2 there is left of d only
-    its power -0.02, which is left out.
+    Their rolling frictions are arms in mm, as is d: here mu_r d/4 between grains and mu_r d/2 at the plate. Of d there
+    is left its power -0.02, which is left out.
     """
-    return 68.61 * sliding**0.27 * wall**0.22 * (rolling / 2) ** 0.18
+    return 68.61 * sliding**0.27 * wall**0.22 * (rolling / 4) ** 0.06 * (rolling / 2) ** 0.12
 
 
 def surface(spheres, domain, d):
@@ -184,16 +184,15 @@ def draw(folder):
     for shape, colour in COLOURS.items():
         errorbar(clumps, rows_of(table, "slope", shape), colour, shape)
         errorbar(beds, rows_of(table, "fraction", shape), colour, shape)
-        place = 0.53 + 0.03 * list(COLOURS).index(shape)
-        loose, dense = PUBLISHED[shape]
-        beds.plot([place, place], [loose or dense, dense], color=colour, lw=3, alpha=0.5, solid_capstyle="butt",
-                  marker="_" if loose is None else None, ms=5)
+        for sliding, fraction in PUBLISHED.get(shape, ()):
+            beds.plot(sliding, fraction, **style.reference_marks(colour))
+    beds.axhspan(*SAND, color=COLOURS["sand"], alpha=0.25, lw=0)
     for marker, sliding in zip("os^", MU):
         draw_alike(both, table, sliding, marker)
     for axes in (spheres, clumps):
         axes.set(xlabel="sliding friction", ylabel="slope (°)", ylim=(0, 45), xlim=(0, 0.6))
-    both.set(xlabel="$\\mu_r$; mean eccentricity over $d/2$", ylabel="slope (°)", ylim=(0, 45))
-    beds.set(xlabel="sliding friction", ylabel="solid fraction", xlim=(-0.03, 0.68))
+    both.set(xlabel="$\\mu_r/2$; eccentricity", ylabel="slope (°)", ylim=(0, 45))
+    beds.set(xlabel="sliding friction", ylabel="solid fraction", xlim=(-0.04, 0.6))
     spheres.legend(handles=[*spheres.get_legend_handles_labels()[0],
                             Line2D([], [], color="0.3", ls=(0, (4, 1.5)), lw=0.8, label="Zhou et al.")],
                    loc="lower right")
@@ -214,8 +213,8 @@ def draw_alike(axes, table, sliding, marker):
     spheres = [rows_of(table, "slope", SPHERE, rolling) for rolling in MU_R]
     angles = [rows["mean"][rows["sliding_friction"] == sliding] for rows in spheres]
     if all(len(angle) for angle in angles):
-        axes.plot(MU_R, np.concatenate(angles), color="0.5", lw=0.8)
-    axes.plot([], [], color="0.5", ls="", marker=marker, ms=3.5, label=f"$\\mu$ = {sliding:g}")
+        axes.plot(np.divide(MU_R, 2), np.concatenate(angles), color="0.5", lw=0.8, marker=marker, ms=3.5)
+    axes.plot([], [], color="0.5", lw=0.8, marker=marker, ms=3.5, label=f"$\\mu$ = {sliding:g}")
     for shape, colour in list(COLOURS.items())[1:]:
         rows = rows_of(table, "slope", shape)
         one = rows["sliding_friction"] == sliding
