@@ -78,7 +78,7 @@ def begun(run: RunFolder) -> tuple[Path, list[tuple[str, FrameFile]]]:
     if run.grain_file and run.shapes:
         kinds.insert(1, ("spheres", _write_spheres(spheres, run)))
     else:
-        spheres.unlink(missing_ok=True)
+        writing.only(folder, spheres.name, set())
     return folder, kinds
 
 
