@@ -169,8 +169,8 @@ void write_track_outputs(Hdf5File& file, const std::string& group, const GrainFr
 }
 
 void write_clump_shapes(Hdf5File& file, const GrainState& grains) {
-  if (grains.clump.size() == 0) return;
   const ClumpShapes& shapes = grains.shapes;
+  if (shapes.sphere.size() == 0) return;
   const auto sphere = host_copy(shapes.sphere);
   std::vector<int> kinds;
   std::vector<double> centres, radii;
