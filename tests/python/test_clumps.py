@@ -13,7 +13,8 @@ from test_vtkhdf import frames_of, read
 
 import barchan
 from barchan import vtk
-from barchan.figures import grain_image
+from barchan.dune.tracks import tracks
+from barchan.figures import grain_image, movie
 from barchan.io.clumps import Shapes, rotated, spheres_of
 from barchan.io.frames import Grains
 from barchan.report import grains as report_grains
@@ -78,6 +79,25 @@ def test_pictures_show_the_spheres():
     assert not drawn[:, 90:110].any()
     one = grain_image.top_view(replace(dimer(), orientation=None), window, 200, 2.0)
     assert (one.min(axis=2) < 0.99).mean() == pytest.approx(np.pi * 0.5 ** 2 / 4, rel=0.05)
+
+
+def test_tracks_lead_to_the_spheres(run, tmp_path):
+    folder = tmp_path / "run"
+    shutil.copytree(run.path, folder)
+    with h5py.File(run.path / "grains.h5") as source, h5py.File(folder / "tracks.h5", "w") as file:
+        for number, name in enumerate(sorted(name for name in source if name.startswith("frame_")) * 2):
+            group = file.create_group(f"frame_{number:06d}")
+            group.attrs.update(time=float(number), step=number)
+            for array in ("id", "x", "orientation"):
+                group[array] = source[name][array][:].astype("i8" if array == "id" else "f4")
+    copied = barchan.Run(folder)
+    shown, read = movie.Frames(copied).grains(2), tracks(copied).read(2)
+    for grains in (shown, read):
+        order = np.argsort(grains.id)
+        assert np.array_equal(grains.kind[order], run.frame(2).kind)
+        spheres, wanted = spheres_of(grains), spheres_of(replace(run.frame(2), d=grains.d[order]))  # d by the id
+        assert np.sort(spheres.x[:, 0]) == pytest.approx(np.sort(wanted.x[:, 0]), abs=1e-7)
+        assert np.sort(spheres.d) == pytest.approx(np.sort(wanted.d))
 
 
 @pytest.mark.parametrize("temporal", [False, True])

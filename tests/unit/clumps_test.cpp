@@ -261,7 +261,11 @@ TEST(ClumpsOfACase, TheirSpheresFollowFromTheFile) {
   }
   const ClumpBench bench(c, grains);
   const TemporaryFolder folder;
-  OutputFiles(folder.path(), {}).write_grains(whole_grains(bench.state), 0, 0);
+  OutputFiles output(folder.path(), {});
+  output.write_grains(whole_grains(bench.state), 0, 0);
+  output.write_tracks(whole_grains(bench.state), 0, 0);
+  const Hdf5File tracks(folder / "tracks.h5", Hdf5File::Mode::read);
+  EXPECT_EQ(tracks.info("frame_000000/orientation").extents, (Extents{2, 4}));
   const Hdf5File file(folder / "grains.h5", Hdf5File::Mode::read);
   const auto kinds = file.read<std::int32_t>("spheres/kind");
   const auto centres = file.read<double>("spheres/centre"),
