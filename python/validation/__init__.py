@@ -19,6 +19,7 @@ from validation import tables
 from validation import bed_load
 from validation import cfdem
 from validation import channel
+from validation import clumps
 from validation import contacts
 from validation import corners
 from validation import dem_cases
@@ -51,12 +52,13 @@ FIGURES = {
     resolved_spheres.NAME: resolved_spheres.draw,
     dune_window.NAME: dune_window.draw,
     dem_cases.NAME: dem_cases.draw,
+    clumps.NAME: clumps.draw,
     field_cases.NAME: field_cases.draw,
     corners.NAME: corners.draw,
 }
 STUDIES = {module.NAME: module
            for module in (bed_load, threshold, laminar_bed, resolved_bed, resolved_load, resolved_spheres, dune_window,
-                          dem_cases, field_cases, corners)}
+                          dem_cases, clumps, field_cases, corners)}
 
 
 def parse(arguments):

@@ -178,6 +178,7 @@ GrainState whole_grains(const GrainState& grains) {
   const ClumpsOfGrains clumps = clumps_of(grains);
   GrainState whole = make_grain_entries(n, grains.ranks);
   whole.clump = Kokkos::View<ClumpMotion*>("clump", whole.id.extent(0));
+  whole.shapes = grains.shapes;
   whole.kind_names = grains.kind_names, whole.heap_names = grains.heap_names;
   whole.fluid.has_fluid = grains.fluid.has_fluid;
   whole.r_max = grains.r_max, whole.r_min = grains.r_min;

@@ -74,10 +74,13 @@ GrainValues positions(const GrainFrame& frame) {
   return rows<T>(frame, PositionOf<T>{frame.grains.kin, frame.box});
 }
 
+template <class T>
 GrainValues orientations(const GrainFrame& frame) {
   if (frame.grains.clump.size() == 0) return {};
-  return rows<double>(frame, OrientationOf{frame.grains.clump});
+  return rows<T>(frame, OrientationOf{frame.grains.clump});
 }
+
+constexpr const char* kShapes = "spheres";  // group of the spheres of clumps
 
 using F = ForceArrays;
 
@@ -94,7 +97,7 @@ constexpr GrainOutput kGrainOutputs[] = {
     {"orientation", "1",
      "quaternion w, x, y, z that turns the principal axes of a clump into space; in runs with "
      "clumps",
-     orientations},
+     orientations<double>, orientations<float>},
     {"force_drag", "N", "drag", force_of<&F::drag>},
     {"force_added_mass", "N", "force of the added mass", force_of<&F::added_mass>},
     {"force_lift", "N", "lift", force_of<&F::lift>},
@@ -117,6 +120,13 @@ constexpr GrainOutput kGrainOutputs[] = {
      "number of the heap that the grain came from, from 0, -1: of none; \"names\" has a line for "
      "each",
      number_of<&GrainState::heap>, nullptr, &GrainState::heap_names},
+};
+
+/// Arrays of the group "spheres", in the order in which they are written.
+const Output kShapeOutputs[] = {
+    {"kind", "1", "kind of the clumps that have the sphere, from 0"},
+    {"centre", "1", "its place in the principal frame of a clump of diameter 1"},
+    {"radius", "1", "its radius there"},
 };
 
 Output words_of(const GrainOutput& one) { return {one.name, one.unit, one.meaning}; }
@@ -156,6 +166,32 @@ void write_grain_outputs(Hdf5File& file, const std::string& group, const GrainFr
 
 void write_track_outputs(Hdf5File& file, const std::string& group, const GrainFrame& frame) {
   write_each(file, group, frame, &GrainOutput::in_tracks);
+}
+
+void write_clump_shapes(Hdf5File& file, const GrainState& grains) {
+  const ClumpShapes& shapes = grains.shapes;
+  if (shapes.sphere.size() == 0) return;
+  const auto sphere = host_copy(shapes.sphere);
+  std::vector<int> kinds;
+  std::vector<double> centres, radii;
+  for (int kind = 0; kind < kMaxKinds; ++kind) {
+    for (int s = shapes.first[kind]; s < shapes.first[kind + 1]; ++s) {
+      const Vec3 c = sphere(s).vec();
+      kinds.push_back(kind);
+      centres.insert(centres.end(), {c.x, c.y, c.z});
+      radii.push_back(sphere(s).w());
+    }
+  }
+  const auto write = [&](const Output& about, const auto& values, Extents extents) {
+    write_output(file, kShapes, about, std::span(values), extents);
+  };
+  write(kShapeOutputs[0], kinds, {kinds.size()});
+  write(kShapeOutputs[1], centres, {kinds.size(), 3});
+  write(kShapeOutputs[2], radii, {kinds.size()});
+}
+
+std::vector<Output> clump_shape_outputs() {
+  return {std::begin(kShapeOutputs), std::end(kShapeOutputs)};
 }
 
 std::vector<Output> grain_outputs() {

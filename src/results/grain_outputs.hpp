@@ -27,7 +27,11 @@ void write_grain_outputs(Hdf5File& file, const std::string& group, const GrainFr
 /// Writes the arrays of tracks.h5 alone.
 void write_track_outputs(Hdf5File& file, const std::string& group, const GrainFrame& frame);
 
-/// All arrays of grains.h5, for the page.
+/// Writes the spheres of the clumps of each kind, once a file: none in runs without clumps.
+void write_clump_shapes(Hdf5File& file, const GrainState& grains);
+
+/// All arrays of grains.h5, for the page; the second function, those of write_clump_shapes().
 std::vector<Output> grain_outputs();
+std::vector<Output> clump_shape_outputs();
 
 }  // namespace barchan

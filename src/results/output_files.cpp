@@ -87,9 +87,10 @@ class FieldWriter {
   Hyperslab slab_;
 };
 
-/// Appends all of the grains.
+/// Appends all of the grains, and the shapes of clumps where the file is new.
 void append_grains(FrameFile& frames, const GrainFrame& grains, double t, std::int64_t step) {
-  frames.append(t, step, {}, [&](Hdf5File& file, const std::string& group) {
+  const auto preamble = [&](Hdf5File& file) { write_clump_shapes(file, grains.grains); };
+  frames.append(t, step, preamble, [&](Hdf5File& file, const std::string& group) {
     file.set_attribute(group, "last_id", last_id(grains.grains));
     write_grain_outputs(file, group, grains);
   });

@@ -8,7 +8,8 @@ node -e 'require("jsdom")' 2> /dev/null || { echo "SKIPPED: no jsdom (Debian pac
 
 fake "$dir/run"
 fake "$dir/names" --heaps --bodies
-for kind in run names; do
+fake "$dir/clumps" --clumps
+for kind in run names clumps; do
   plot 0 "$dir/$kind" report
   node "$root/tests/support/drive_report.js" "$dir/$kind/report.html" || fail "the page's controls: $kind"
 done

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Writes a synthetic run folder: a heap that turns into a barchan, with the flow over it.
 
-    make_fake_run.py OUT_DIR [--without grains|fields|tables] [--cut] [--average] [--study] [--heaps] [--bodies]
+    make_fake_run.py OUT_DIR [--without grains|fields|tables] [--cut] [--average] [--study] [--heaps] [--bodies] [--clumps]
 
 The formats are those of a run; nothing is simulated. `--cut` leaves the folder as a killed run
 would: a CSV line without its end, a frame without its arrays, no run.json. `--average` adds
 flow_average.h5 of a known flow, `--study` writes a study folder with such runs as its cases, `--heaps`
-gives every third grain to another heap. `--bodies` puts a cylinder and a fence in the way, with bodies.csv of known
+gives every third grain to another heap. `--clumps` makes
+grains of two kinds, single spheres and dimers. `--bodies` puts a cylinder and a fence in the way, with bodies.csv of known
 forces.
 """
 
@@ -139,14 +140,31 @@ def write_frame(file, index, t, arrays):
         group.create_dataset(name, data=values).attrs["units"] = "SI"
 
 
-def write_grains(folder, cut, frames=FRAMES, heaps=False):
+# Spheres of grains of diameter 1, by kind: one; two that touch, along the first axis.
+SPHERES = {"kind": [0, 1, 1], "centre": [[0, 0, 0], [-(0.5 ** (4 / 3)), 0, 0], [0.5 ** (4 / 3), 0, 0]],
+           "radius": [0.5, 0.5 ** (4 / 3), 0.5 ** (4 / 3)]}
+
+
+def clumps(number):
+    """Kinds and orientations of grains: every third one is a dimer, turned about the vertical by its number."""
+    half = 0.05 * number
+    return {"kind": number % 3 // 2, "orientation": np.stack([np.cos(half), 0 * half, np.sin(half), 0 * half], axis=1)}
+
+
+def write_grains(folder, cut, frames=FRAMES, heaps=False, with_clumps=False):
     random = np.random.default_rng(1)
     with open_file(folder / "grains.h5") as file:
+        if with_clumps:
+            for name, values in SPHERES.items():
+                file[f"spheres/{name}"] = np.array(values)
         for index, t in enumerate(np.linspace(0, END, frames)):
             x, d, dune = make_grains(t, random)
             number = random.permutation(len(d))
             write_frame(file, index, t, {"id": number, "x": x, "d": d, "u": 0 * x, "omega": 0 * x, "dune": dune,
-                                         **({"heap": number % 3 // 2} if heaps else {})})
+                                         **({"heap": number % 3 // 2} if heaps else {}),
+                                         **(clumps(number) if with_clumps else {})})
+            if with_clumps:
+                file[f"frame_{index:06d}/kind"].attrs["names"] = "ball\npair\n"
             if heaps:
                 file[f"frame_{index:06d}/heap"].attrs["names"] = "first\n<second>\n"
         if cut:
@@ -302,12 +320,13 @@ def main():
     parser.add_argument("--study", action="store_true", help="a study folder instead of a run folder")
     parser.add_argument("--heaps", action="store_true", help="grains of two heaps")
     parser.add_argument("--bodies", action="store_true", help="with two bodies and bodies.csv")
+    parser.add_argument("--clumps", action="store_true", help="grains of two kinds, one of clumps")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     if options.study:
         return write_study(options.out)
     if "grains" not in options.without:
-        write_grains(options.out, options.cut, options.frames, options.heaps)
+        write_grains(options.out, options.cut, options.frames, options.heaps, options.clumps)
     if "fields" not in options.without:
         write_fields(options.out, options.bodies)
     if "tables" not in options.without:

@@ -13,6 +13,7 @@
 #include "src/grains/kinds.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
+#include "src/results/output_files.hpp"
 #include "tests/support/clumps.hpp"
 #include "tests/support/config_problems.hpp"
 #include "tests/support/packing.hpp"
@@ -333,6 +334,49 @@ TEST(ClumpsOfACase, LeaveAsAWhole) {
   EXPECT_EQ(grain_count(bench.state), 40);  // those from 2 mm on, two of six
   EXPECT_EQ(bench.state.n, 8 * 40);
   EXPECT_EQ(bench.state.n_left, 20);
+}
+
+/// Spheres of all clumps follow from grains.h5, as docs/files.md says.
+TEST(ClumpsOfACase, TheirSpheresFollowFromTheFile) {
+  const Config c = case_of("[[grains.kind]]\nname = \"a\"\n[[grains.kind]]\nname = \"b\"\n" +
+                           kCube + "sizes = [[0.3e-3, 1]]\n");
+  InitialGrains grains;
+  grains.kind_names = {"a", "b"};
+  for (const int kind : {0, 1}) {
+    add_grain(grains, 2e-4 + 1e-4 * kind, {1e-3 + 2e-3 * kind, 2e-3, 3e-3});
+    grains.kind.push_back(static_cast<std::uint8_t>(kind));
+  }
+  const ClumpBench bench(c, grains);
+  const TemporaryFolder folder;
+  OutputFiles output(folder.path(), {});
+  output.write_grains(whole_grains(bench.state), 0, 0);
+  output.write_tracks(whole_grains(bench.state), 0, 0);
+  const Hdf5File tracks(folder / "tracks.h5", Hdf5File::Mode::read);
+  EXPECT_EQ(tracks.info("frame_000000/orientation").extents, (Extents{2, 4}));
+  const Hdf5File file(folder / "grains.h5", Hdf5File::Mode::read);
+  const auto kinds = file.read<std::int32_t>("spheres/kind");
+  const auto centres = file.read<double>("spheres/centre"),
+             radii = file.read<double>("spheres/radius");
+  EXPECT_EQ(kinds, (std::vector<std::int32_t>{0, 1, 1, 1, 1, 1, 1, 1, 1}));
+  ASSERT_EQ(centres.size(), 27u);
+  EXPECT_EQ(radii[0], 0.5);
+  const auto x = file.read<double>("frame_000000/x"), d = file.read<double>("frame_000000/d");
+  const auto q = file.read<double>("frame_000000/orientation");
+  const auto kind = file.read<std::int32_t>("frame_000000/kind");
+  const auto id = file.read<std::int64_t>("frame_000000/id");
+  const auto entries = host_copy(bench.state.kin);
+  const auto numbers = host_copy(bench.state.id);
+  ASSERT_EQ(bench.state.n, 9);
+  for (int e = 0; e < bench.state.n; ++e) {
+    const std::size_t g = id[0] == clump_of_id(numbers(e)) ? 0 : 1;
+    const auto s = static_cast<std::size_t>(kind[g] + member_of_id(numbers(e)));
+    const Quaternion turn{q[4 * g], q[4 * g + 1], q[4 * g + 2], q[4 * g + 3]};
+    const Vec3 centre{centres[3 * s], centres[3 * s + 1], centres[3 * s + 2]};
+    const Vec3 place = Vec3{x[3 * g], x[3 * g + 1], x[3 * g + 2]} + d[g] * rotate(turn, centre);
+    EXPECT_NEAR(norm(place - entries(e).x), 0, 1e-16);
+    EXPECT_NEAR(entries(e).r, d[g] * radii[s], 1e-18);
+    EXPECT_EQ(kinds[s], kind[g]);
+  }
 }
 
 }  // namespace

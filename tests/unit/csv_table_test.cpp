@@ -71,6 +71,7 @@ TEST(Outputs, ThePageHasThoseOfTheProgram) {
   };
   for_each_table([&](const auto& table) { expect_in_page(table.outputs(), "column"); });
   expect_in_page(grain_outputs(), "array");
+  expect_in_page(clump_shape_outputs(), "array");
   expect_in_page(flow_moment_outputs(), "array");
 }
 

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from barchan.errors import BarchanError, MissingData, seconds
+from barchan.api import frames
 from barchan.dune import encounters, obstacles
 from barchan.io import horn_lengths, labelled
-from barchan.io.frames import FrameFile, names_of
 from barchan.io.progress import Progress
 from barchan.io.run_folder import RunFolder
 from barchan.io.study_folder import NAME
-from barchan.io.units import About, of_arrays
+from barchan.io.units import About
 
 if TYPE_CHECKING:
     from barchan.api.study import Study
@@ -193,7 +193,32 @@ class Run(RunFolder):
             Where no frame is near `t`, there is none of that number, or both are given.
         """
         file = self.need_grains()
-        return self._grains_of(file, file.index(t, frame))
+        return frames.grains_of(file, file.index(t, frame))
+
+    def spheres(self, t: float | None = None, frame: int | None = None) -> DataFrame:
+        """The spheres that the grains of one frame consist of: of clumps several, else the grains themselves.
+
+        Parameters
+        ----------
+        t : float, optional
+            Time [s], of which the nearest frame is taken.
+        frame : int, optional
+            Number of the frame, from the end if negative. Without `t` and `frame` the last is taken.
+
+        Returns
+        -------
+        pandas.DataFrame
+            x, y, z, d [m], a row for each sphere, indexed by the id of its grain; attrs as of `grains`. At a periodic
+            boundary spheres stay with their grain.
+
+        Raises
+        ------
+        MissingData
+            Where grains.h5 has no frame.
+        BarchanError
+            Where no frame is near `t`, there is none of that number, or both are given.
+        """
+        return frames.spheres_of(self.frame(self.need_grains().index(t, frame)))
 
     def frames(self, progress: bool = True) -> Iterator[DataFrame]:
         """The grains of every frame in turn; only one frame is in memory.
@@ -215,20 +240,7 @@ class Run(RunFolder):
         """
         file = self.need_grains()
         for index in Progress(range(len(file.frames)), "reading grains", progress):
-            yield self._grains_of(file, index)
-
-    @staticmethod
-    def _grains_of(file: FrameFile, index: int) -> DataFrame:
-        time, name = file.frames[index]
-        with file.open() as content:
-            group = content[name]
-            order = np.argsort(group["id"][:])
-            found = {key: group[key][:][order] for key in group}
-            kinds = names_of(group, "kind")
-            about = of_arrays(group, list(found))
-        grains = labelled.grains_frame(time, found, about)
-        grains.attrs["kinds"] = kinds
-        return grains
+            yield frames.grains_of(file, index)
 
     def track(self, ids: Sequence[int], progress: bool = True) -> DataFrame:
         """Where grains are in every frame.
@@ -255,24 +267,7 @@ class Run(RunFolder):
         BarchanError
             Where ids are no whole numbers, or none of these grains is in any frame.
         """
-        file = self.frame_file("tracks.h5", ("id", "x")) or self.need_grains()
-        wanted = np.unique(np.asarray(ids))
-        if wanted.size and wanted.dtype.kind not in "iu":
-            raise BarchanError("ids must be whole numbers, such as run.grains().index")
-        parts: list[dict[str, np.ndarray]] = []
-        with file.open() as content:
-            for time, name in Progress(file.frames, "following grains", progress):
-                number = content[name]["id"][:]
-                rows = np.nonzero(np.isin(number, wanted))[0]
-                x = content[name]["x"][:][rows].astype(float)
-                parts.append({"id": number[rows], "t": np.full(len(rows), time), **dict(zip("xyz", x.T))})
-            arrays = of_arrays(content[file.frames[-1][1]], ["id", "x"])
-        joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-        if wanted.size and not len(joined["id"]):
-            raise BarchanError(f"no frame of {file.path} has a grain with one of these ids")
-        order = np.lexsort((joined["t"], joined["id"]))
-        about = {"t": ("s", "time")} | arrays | ({axis: arrays["x"] for axis in "xyz"} if "x" in arrays else {})
-        return labelled.data_frame({name: values[order] for name, values in joined.items()}, about)
+        return frames.track(self.frame_file("tracks.h5", ("id", "x")) or self.need_grains(), ids, progress)
 
     # --- fields
 
@@ -352,7 +347,8 @@ class Run(RunFolder):
         -------
         pyvista.MultiBlock
             "grains": a PolyData of their centres (N, 3) [m], with d and all else as point data. Where the run has
-            fields, "flow": a RectilinearGrid with cell data, of the frame nearest in time.
+            clumps, "spheres": likewise their spheres, with d and id. Where it has fields, "flow": a RectilinearGrid
+            with cell data, of the frame nearest in time.
 
         Raises
         ------

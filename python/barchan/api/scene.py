@@ -23,6 +23,11 @@ def multi_block(run: Run, t: float | None, frame: int | None) -> MultiBlock:
     for name in grains.columns.drop(["x", "y", "z"]):
         points.point_data[name] = grains[name].to_numpy()
     blocks = pyvista.MultiBlock({"grains": points})
+    if run.shapes is not None:
+        spheres = run.spheres(t, frame)
+        blocks["spheres"] = pyvista.PolyData(spheres[["x", "y", "z"]].to_numpy())
+        blocks["spheres"].point_data["d"] = spheres["d"].to_numpy()
+        blocks["spheres"].point_data["id"] = spheres.index.to_numpy()
     if run.field_file is not None:
         blocks["flow"] = rectilinear(pyvista, run.field_file, grains.attrs["time"])
     return blocks

@@ -45,7 +45,8 @@ def known_grains(run: RunFolder) -> Grains:
         return None if any(part is None for part in parts) else np.concatenate(parts)[first]
 
     return Grains(0.0, of_all("id"), of_all("x"), of_all("d"), heap=of_all("heap"),
-                  heaps=max((grains.heaps for grains in seen), key=len), kind=of_all("kind"), kinds=seen[0].kinds)
+                  heaps=max((grains.heaps for grains in seen), key=len), kind=of_all("kind"), kinds=seen[0].kinds,
+                  shapes=seen[0].shapes)
 
 
 class Tracks:
@@ -77,12 +78,22 @@ class Tracks:
         time, name = self.file.frames[index]
         with self.file.open() as file:
             number, x = file[name]["id"][:], file[name]["x"][:].astype(float)
-            d, dune = (file[name][key][:] if key in file[name] else None for key in ("d", "dune"))
+            d, dune, turned = (file[name][key][:] if key in file[name] else None
+                               for key in ("d", "dune", "orientation"))
         order = np.argsort(number)
         order = order[np.isfinite(x[order]).all(axis=1)]
         number, x = number[order], x[order]
         return Grains(time, number, x, self._diameters_of(number) if d is None else d[order],
-                      dune if dune is None else dune[order])
+                      dune if dune is None else dune[order],
+                      **({} if turned is None else self._turned(number, turned[order])))
+
+    def _turned(self, number: np.ndarray, orientation: np.ndarray) -> dict[str, Any]:
+        """What the spheres of clumps follow from, of a frame with these ids."""
+        kind = None if self.known.kind is None else self.known.kind[self._places(number)]
+        return {"orientation": orientation.astype(float), "kind": kind, "shapes": self.known.shapes}
+
+    def _places(self, number: np.ndarray) -> np.ndarray:
+        return np.minimum(np.searchsorted(self.known.id, number), len(self.known.id) - 1)
 
     @cached_property
     def heaps(self) -> tuple[np.ndarray, np.ndarray | None]:
@@ -91,7 +102,7 @@ class Tracks:
 
     def _diameters_of(self, number: np.ndarray) -> np.ndarray:
         ids, d = self.diameters
-        at = np.minimum(np.searchsorted(ids, number), len(ids) - 1)
+        at = self._places(number)
         return np.where(ids[at] == number, d[at], d.mean())
 
     def main_dune(self, grains: Grains) -> Dune | None:

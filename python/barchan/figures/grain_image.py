@@ -12,6 +12,7 @@ from matplotlib.colors import to_rgb
 
 from barchan.dune.bodies import tops
 from barchan.figures.style import BODY, GROUPS, HEIGHT_MAP
+from barchan.io.clumps import spheres_of
 
 MOST_ROWS = 4000  # of a picture; one of a domain that is much wider than long is coarser
 LIGHT = np.array([-0.45, 0.78, -0.45])  # towards the light: x, y, z; upstream, above, left
@@ -71,14 +72,16 @@ def top_view(grains, window, width, top, bodies=()):
     """RGB picture (rows, columns, 3), at most `width` columns, of the window = (x0, x1, z0, z1) [m].
 
     Coloured by kind or heap if there are several, else by height: colours run from 0 to `top` [m]. The first row is z0.
-    Bodies are seen where no grain lies on them.
+    Clumps are drawn as their spheres. Bodies are seen where no grain lies on them.
     """
     colours = by_height(grains.x, grains.d, top) if grains.group is None else by_group(grains.group)
-    return coloured_view(grains.x, grains.d, colours, window, width, bodies)
+    return coloured_view(grains, colours, window, width, bodies)
 
 
-def coloured_view(x, d, colours, window, width, bodies=()):
+def coloured_view(grains, colours, window, width, bodies=()):
     """The same with a colour for each grain: colours (N, 3)."""
+    spheres = spheres_of(grains)
+    x, d, colours = spheres.x, spheres.d, colours[spheres.grain]
     inside = ((x[:, 0] > window[0]) & (x[:, 0] < window[1]) & (x[:, 2] > window[2])
               & (x[:, 2] < window[3]))
     x, d, colours = x[inside], d[inside], colours[inside]

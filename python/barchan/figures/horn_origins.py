@@ -5,6 +5,8 @@ others; (b) paths of the grains that were in a horn up to then; (c), (d) where t
 The view is from above, flow from left to right, left (z < Cz) up. What a horn is: horn_grains.py.
 """
 
+from dataclasses import replace
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
@@ -102,7 +104,7 @@ def picture(grains, red, window, inches):
     chosen = np.isin(grains.id, red)
     colours = np.where(chosen[:, None], to_rgb(RED), to_rgb(GREY))
     lifted = grains.x + np.where(chosen, grains.x[:, 1].max(), 0.0)[:, None] * (0, 1, 0)
-    return coloured_view(lifted, grains.d, colours, window, round(FINER * style.DPI * inches))
+    return coloured_view(replace(grains, x=lifted), colours, window, round(FINER * style.DPI * inches))
 
 
 def draw_paths(figure, run, horns, ids, last):

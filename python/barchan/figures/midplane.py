@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from barchan.dune.bodies import bodies_of
 from barchan.figures import bodies as body_pictures
 from barchan.figures import style
+from barchan.io.clumps import spheres_of
 
 DARK = 0.5   # of the largest u: below it the colour is dark and arrows are white
 CLEAR = 0.9  # void fraction above which the flow counts as water beside the bed
@@ -113,11 +114,12 @@ def resample(flow, field, x, y):
 
 
 def draw_grains(axes, grains, z):
-    distance = abs(grains.x[:, 2] - z)
+    spheres = spheres_of(grains)
+    distance = abs(spheres.x[:, 2] - z)
     near = np.argsort(-distance)  # the nearest on top
-    near = near[distance[near] < grains.d[near]]
-    size = 1e3 * grains.d[near]
+    near = near[distance[near] < spheres.d[near]]
+    size = 1e3 * spheres.d[near]
     axes.add_collection(EllipseCollection(
-        size, size, np.zeros(size.size), units="xy", offsets=1e3 * grains.x[near, :2],
+        size, size, np.zeros(size.size), units="xy", offsets=1e3 * spheres.x[near, :2],
         offset_transform=axes.transData, facecolor=style.SAND, edgecolor=style.SAND_EDGE,
         linewidth=0.25), autolim=False)

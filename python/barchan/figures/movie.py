@@ -65,13 +65,14 @@ class Frames:
         time, name = self.all[index]
         with self.tracks.open() as file:
             number, x = file[name]["id"][:], file[name]["x"][:].astype(float)
+            turned = file[name]["orientation"][:].astype(float) if "orientation" in file[name] else None
         known = self.known
         place = np.clip(np.searchsorted(known.id, number), 0, len(known.id) - 1)
         found = known.id[place] == number
         place = place[found]
         heap, kind = (None if group is None else group[place] for group in (known.heap, known.kind))
         return Grains(time, number[found], x[found], known.d[place], heap=heap, heaps=known.heaps, kind=kind,
-                      kinds=known.kinds)
+                      kinds=known.kinds, orientation=None if turned is None else turned[found], shapes=known.shapes)
 
     def __iter__(self):
         return (self.grains(int(index)) for index in self.chosen)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from barchan.errors import BarchanError, seconds
+from barchan.io.clumps import Shapes
 from barchan.io.hdf5 import Group, Root, open_file, patiently
 
 
@@ -36,6 +37,10 @@ class Grains:
         (N) number of the kind, the place of its name in `kinds`.
     kinds : tuple of str
         Names of the kinds.
+    orientation : numpy.ndarray, optional
+        (N, 4) quaternions w, x, y, z that turn the principal axes of clumps into space.
+    shapes : Shapes, optional
+        Spheres of the clumps of each kind; barchan.io.clumps.spheres_of puts them in their places.
     """
 
     time: float
@@ -48,6 +53,8 @@ class Grains:
     heaps: tuple[str, ...] = ()
     kind: np.ndarray | None = None
     kinds: tuple[str, ...] = ()
+    orientation: np.ndarray | None = None
+    shapes: Shapes | None = None
 
     @property
     def group(self) -> np.ndarray | None:

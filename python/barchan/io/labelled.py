@@ -11,6 +11,7 @@ from barchan.errors import BarchanError, MissingData, optional
 from barchan.io.units import About
 
 VECTOR_PARTS = {"x": "xyz", "u": "uvw"}  # of others the axis follows the name: omega_x
+AXES = {3: "xyz", 4: "wxyz"}  # of a vector, of a quaternion
 
 
 def data_frame(columns: dict[str, np.ndarray], about: About) -> Any:
@@ -44,8 +45,8 @@ def grains_frame(time: float, columns: dict[str, np.ndarray], arrays: About) -> 
         if values.ndim == 1:
             parts = {name: values}
         else:
-            parts = {VECTOR_PARTS[name][axis] if name in VECTOR_PARTS else f"{name}_{'xyz'[axis]}": values[:, axis]
-                     for axis in range(3)}
+            names = VECTOR_PARTS.get(name) or [f"{name}_{axis}" for axis in AXES[values.shape[1]]]
+            parts = dict(zip(names, values.T))
         flat |= parts
         about |= {part: arrays[name] for part in parts if name in arrays}
     frame = data_frame(flat, about).set_index("id")

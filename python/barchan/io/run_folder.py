@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from barchan.errors import BarchanError, MissingData
+from barchan.io.clumps import Shapes, shapes_of
 from barchan.io.frames import Flow, FrameFile, Grains, names_of, with_fed
 from barchan.io.hdf5 import open_file
 from barchan.io.horn_lengths import medians
@@ -207,6 +208,12 @@ class RunFolder:
     def title(self) -> str:
         return self.config.get("case", {}).get("title") or self.path.resolve().name
 
+    @cached_property
+    def shapes(self) -> Shapes | None:
+        """Spheres of the clumps of each kind; None where all grains are spheres."""
+        with self.need_grains().open() as content:
+            return shapes_of(content)
+
     def frame(self, index: int) -> Grains:
         """The grains of frame `index` (negative: from the end), ordered by id."""
         file = self.need_grains()
@@ -215,10 +222,11 @@ class RunFolder:
             group = content[name]
             order = np.argsort(group["id"][:])
             number, x, d = (group[key][:][order] for key in ("id", "x", "d"))
-            dune, u, heap, kind = (group[key][:][order] if key in group else None
-                                   for key in ("dune", "u", "heap", "kind"))
+            dune, u, heap, kind, orientation = (group[key][:][order] if key in group else None
+                                                for key in ("dune", "u", "heap", "kind", "orientation"))
             heap, heaps = with_fed(heap, names_of(group, "heap"))
-            return Grains(time, number, x, d, dune, u, heap, heaps, kind, names_of(group, "kind"))
+            return Grains(time, number, x, d, dune, u, heap, heaps, kind, names_of(group, "kind"), orientation,
+                          self.shapes)
 
     def flow_plane(self, index: int, z: float) -> Flow:
         """The cells nearest to the plane z = `z` [m] in frame `index`."""

@@ -3,7 +3,8 @@
 VTKHDF 1.0 (VTK 9.1 and newer, https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html#hdf-file-formats)
 knows images and unstructured grids, and no time. Grains are vertices; the rectilinear mesh of the flow, which images
 cannot describe, is hexahedra; bodies are triangles. Values are not copied: they are links to the files of the run,
-which must stay beside. vtkhdf_in_time.py writes the same in files with time.
+which must stay beside. The spheres of clumps, of which the run has only what they follow from, are written to
+spheres.h5, frames as those of grains.h5. vtkhdf_in_time.py writes the same in files with time.
 """
 
 import json
@@ -16,6 +17,7 @@ import numpy as np
 
 from barchan.errors import MissingData
 from barchan.io import writing
+from barchan.io.clumps import spheres_of
 from barchan.io.frames import FrameFile
 from barchan.io.hdf5 import Group, h5py
 from barchan.io.run_folder import RunFolder
@@ -54,8 +56,7 @@ def write(run: RunFolder, bodies: Surface | None = None) -> list[Path]:
     MissingData
         where the run has no frames.
     """
-    kinds = kinds_of(run)
-    folder = writing.folder(run.path / FOLDER)
+    folder, kinds = begun(run)
     written = [_write_series(folder, kind, file) for kind, file in kinds]
     named = {entry["name"] for one in written for entry in json.loads(one.read_text())["files"]}
     if bodies is not None:
@@ -64,12 +65,39 @@ def write(run: RunFolder, bodies: Surface | None = None) -> list[Path]:
     return written
 
 
-def kinds_of(run: RunFolder) -> list[tuple[str, FrameFile]]:
-    """("grains" or "fields", its file) of what the run has frames of. Raises MissingData where it has none."""
+def begun(run: RunFolder) -> tuple[Path, list[tuple[str, FrameFile]]]:
+    """RUN_DIR/vtkhdf, and ("grains", "spheres" of clumps or "fields", its file) of what the run has frames of.
+
+    Raises MissingData where it has none.
+    """
     kinds = [(kind, file) for kind, file in (("grains", run.grain_file), ("fields", run.field_file)) if file]
     if not kinds:
         raise MissingData("needs grains.h5 or fields.h5 with at least one frame")
-    return kinds
+    folder = writing.folder(run.path / FOLDER)
+    spheres = folder / "spheres.h5"
+    if run.grain_file and run.shapes:
+        kinds.insert(1, ("spheres", _write_spheres(spheres, run)))
+    else:
+        writing.only(folder, spheres.name, set())
+    return folder, kinds
+
+
+def _write_spheres(path: Path, run: RunFolder) -> FrameFile:
+    """The spheres of all clumps in frames as those of grains.h5: x and d are theirs, all else is the clump's."""
+    file = run.need_grains()
+    with file.open() as source, new_file(path) as out:
+        for number, (time, name) in enumerate(file.frames):
+            frame = source[name]
+            order = np.argsort(frame["id"][:])  # of the grains that the run folder reads
+            spheres = spheres_of(run.frame(number))
+            group = out.create_group(name)
+            group.attrs["time"] = time
+            for array, values in (("x", spheres.x), ("d", spheres.d)):
+                group.create_dataset(array, data=values, **SMALL)
+            for array in frame:
+                if array not in group and array != "orientation":
+                    group.create_dataset(array, data=frame[array][:][order][spheres.grain], **SMALL)
+    return FrameFile(path, ("id", "x", "d"))
 
 
 def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
@@ -84,14 +112,20 @@ def _write_series(folder: Path, kind: str, file: FrameFile) -> Path:
             with new_file(path) as out:
                 top = top_group(out, (1, 0), "UnstructuredGrid")
                 top["FieldData/TimeValue"] = np.array([time])
-                if kind == "grains":
-                    _add_grains(top, root[name], f"../{file.path.name}", name)
+                source = place_of(file)
+                if kind == "fields":
+                    _add_fields(top, root[name], source, name, mesh.name)
                 else:
-                    _add_fields(top, root[name], f"../{file.path.name}", name, mesh.name)
+                    _add_grains(top, root[name], source, name)
             entries.append({"name": path.name, "time": time})
     series = folder / f"{kind}.hdf.series"
     writing.write(series, json.dumps({"file-series-version": "1.0", "files": entries}, indent=1) + "\n")
     return series
+
+
+def place_of(file: FrameFile) -> str:
+    """The path of a file as links of files in FOLDER have it."""
+    return file.path.name if file.path.parent.name == FOLDER else f"../{file.path.name}"
 
 
 @contextmanager

@@ -15,7 +15,7 @@ from barchan.io import writing
 from barchan.io.frames import FrameFile
 from barchan.io.hdf5 import Root, h5py
 from barchan.io.run_folder import RunFolder
-from barchan.io.vtkhdf import FOLDER, SMALL, Surface, kinds_of, new_file, top_group, write_mesh
+from barchan.io.vtkhdf import SMALL, Surface, begun, new_file, place_of, top_group, write_mesh
 
 VERSION = (2, 0)
 CELLS = ("Vertices", "Lines", "Polygons", "Strips")  # of poly data, in the order of their offsets
@@ -23,7 +23,7 @@ NUMBERS = "numbers"  # beside VTKHDF: 0, 1, 2, ..., of which cells that are poin
 
 
 def write(run: RunFolder, bodies: Surface | None = None) -> list[Path]:
-    """Writes grains.vtkhdf, fields.vtkhdf and bodies.vtkhdf in RUN_DIR/vtkhdf anew.
+    """Writes grains.vtkhdf, spheres.vtkhdf, fields.vtkhdf and bodies.vtkhdf in RUN_DIR/vtkhdf anew.
 
     Frames without grains are left out: readers until VTK 9.5 do not find the cells of the frames after one.
 
@@ -42,13 +42,12 @@ def write(run: RunFolder, bodies: Surface | None = None) -> list[Path]:
     MissingData
         where the run has no frames.
     """
-    kinds = kinds_of(run)
-    folder = writing.folder(run.path / FOLDER)
+    folder, kinds = begun(run)
     written = []
     for kind, file in kinds:
         written.append(folder / f"{kind}.vtkhdf")
         with file.open() as root, new_file(written[-1]) as out:
-            (_add_grains if kind == "grains" else _add_fields)(out, root, file)
+            (_add_fields if kind == "fields" else _add_grains)(out, root, file)
     if bodies is not None:
         written.append(folder / "bodies.vtkhdf")
         with new_file(written[-1]) as out:
@@ -72,7 +71,7 @@ def _show(group: Any, to: str, file: FrameFile, wholes: dict[str, Any]) -> None:
     ends = np.cumsum([len(whole) for whole in wholes.values()])
     layout = h5py.VirtualLayout((int(ends[-1]), *first.shape[1:]), first.dtype)
     for (place, whole), end in zip(wholes.items(), ends):
-        layout[end - len(whole):end] = h5py.VirtualSource(f"../{file.path.name}", place, shape=whole.shape)
+        layout[end - len(whole):end] = h5py.VirtualSource(place_of(file), place, shape=whole.shape)
     group.create_virtual_dataset(to, layout)
 
 
@@ -148,7 +147,7 @@ def _add_fields(out: Any, root: Root, file: FrameFile) -> None:
         for step, name in enumerate(names):
             for axis, array in enumerate(arrays):
                 rows = slice(step * count, (step + 1) * count)
-                source = h5py.VirtualSource(f"../{file.path.name}", f"/{name}/{array}", shape=shape)
+                source = h5py.VirtualSource(place_of(file), f"/{name}/{array}", shape=shape)
                 layout[(rows, axis) if vector else rows] = source  # of three dimensions: flat, x fastest
         cells.create_virtual_dataset(to, layout)
 

@@ -1,4 +1,4 @@
-"""A run in ParaView: the grains as spheres of their size, the flow in a vertical plane behind them.
+"""A run in ParaView: the grains as spheres of their size, clumps as theirs, the flow in a vertical plane behind them.
 
 Without a window, a picture of one time:
 
@@ -84,11 +84,63 @@ def nearest_time(reader, wanted):
 # --- the grains --------------------------------------------------------------------------------------
 
 
+# The script of a filter that puts the spheres of clumps in the place of these. Tables of all kinds, of a clump of
+# diameter 1: kind (M), centre (M, 3), radius (M). ParaView runs it among the names of this file and adds its own, of
+# which some hide those of Python.
+SPHERES = """
+import numpy as np
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.util.numpy_support import numpy_to_vtk
+
+table_kind, centre, radius = np.array({kind}), np.array({centre}), np.array({radius})
+grains = inputs[0].PointData
+d, q = np.asarray(grains["d"]), np.asarray(grains["orientation"]).reshape(-1, 4)
+kind = np.asarray(grains["kind"]) if "kind" in grains.keys() else np.zeros(len(d), int)
+count = np.bincount(table_kind)
+of_each, first = count[kind], (np.cumsum(count) - count)[kind]
+grain = np.repeat(np.arange(len(d)), of_each)
+sphere = first[grain] + np.arange(len(grain)) - np.repeat(np.cumsum(of_each) - of_each, of_each)
+w, u, v = q[grain, :1], q[grain, 1:], centre[sphere]
+across = 2 * np.cross(u, v)
+x = np.asarray(inputs[0].Points)[grain] + d[grain, None] * (v + w * across + np.cross(u, across))
+points = vtkPoints()
+points.SetData(numpy_to_vtk(np.ascontiguousarray(x), deep=True))
+output.SetPoints(points)
+for name in grains.keys():
+    if name != "orientation":
+        output.PointData.append(np.ascontiguousarray(np.asarray(grains[name])[grain]), name)
+output.PointData.append(2 * d[grain] * radius[sphere], "d")
+for name in ("abs", "all", "any", "max", "min", "round", "sum"):
+    globals().pop(name, None)
+"""
+
+
+def shapes_of(reader):
+    """{"kind", "centre", "radius": lists} of the spheres of clumps in the file of the reader; None: all are spheres."""
+    if "orientation" not in reader.PointData.keys():
+        return None
+    try:
+        import h5py
+    except ImportError:
+        print("paraview_view: no h5py: clumps are drawn as spheres of their volume", file=sys.stderr)
+        return None
+    files = getattr(reader, "FileNames", None) or reader.FileName
+    path = files if isinstance(files, str) else files[0]
+    os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
+    with h5py.File(os.path.splitext(path)[0] + ".h5") as file:
+        return {name: file["spheres"][name][:].tolist() for name in ("kind", "centre", "radius")}
+
+
 def show_grains(reader, view, quantity):
-    """Spheres of diameter d, coloured by `quantity`."""
+    """Spheres of diameter d, those of clumps in their places, coloured by `quantity`."""
     source = reader
+    shapes = shapes_of(reader)
+    if shapes is not None:
+        source = pv.ProgrammableFilter(registrationName="spheres of clumps", Input=reader)
+        source.OutputDataSetType = "vtkPolyData"
+        source.Script = SPHERES.format(**shapes)
     if quantity == "height":
-        source = pv.Calculator(registrationName="height", Input=reader)
+        source = pv.Calculator(registrationName="height", Input=source)
         source.ResultArrayName = "height"
         source.Function = "1000 * coordsY"
     source.UpdatePipeline()

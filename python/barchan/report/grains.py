@@ -12,6 +12,7 @@ from barchan.errors import MissingData
 from barchan.figures import style
 
 MOST_FRAMES, MOST_GRAINS = 60, 10_000
+MOST_SPHERES = 30_000  # of clumps, which are drawn one by one
 ABSENT = 65535  # a grain that has left; positions use 0 to 65534
 COLOURS = 32
 
@@ -20,18 +21,25 @@ def pack(run, most_frames=MOST_FRAMES, most_grains=MOST_GRAINS):
     """(facts, data): a dictionary for JSON, and the grains in base64.
 
     The data are unsigned 16-bit integers, little-endian: d (n), then for each frame x (n), y (n), z (n)
-    of the same n grains, and last the kind, or heap, of each (n) if there are several. An integer q stands for
-    low + q (high - low)/65534 of its `bounds`, d for q d_max/65534.
+    of the same n grains, and with clumps x (n), y (n), z (n) of their quaternions with w >= 0; last the kind, or heap,
+    of each (n) if there are several. An integer q stands for low + q (high - low)/65534 of its `bounds`, of a
+    quaternion of -1 and 1, d for q d_max/65534. `spheres`: [x, y, z, radius] of those of each kind, d = 1; [] without
+    clumps.
     """
     file = run.need_grains()
     chosen = evenly(len(file.frames), most_frames)
+    shapes = shapes_by_kind(run.shapes)
+    most_grains = min(most_grains, MOST_SPHERES // max(map(len, shapes), default=3))
     kept, largest = kept_ids(run, chosen, most_grains)
     frames, times, diameters, group, groups = [], [], np.zeros(len(kept)), np.zeros(len(kept), "<u2"), ()
+    turns = []
     for index in chosen:
         grains = run.frame(index)
         x, d, found, place = rows_of(grains, kept)
         if grains.group is not None:
             group[found], groups = grains.group[place], grains.groups
+        if shapes:
+            turns.append(turned(grains.orientation[place], found))
         frames.append(x)
         times.append(grains.time)
         diameters = np.where(np.isfinite(d), d, diameters)
@@ -43,11 +51,13 @@ def pack(run, most_frames=MOST_FRAMES, most_grains=MOST_GRAINS):
         "times": times, "n": len(kept), "bounds": bounds, "dMax": float(diameters.max()),
         "top": float(np.nanpercentile(positions[:, :, 1] + 0.5 * diameters, 99.9)),
         "window": dune_window(positions, bounds), "colours": colours(), "groups": keys_of(groups),
-        "bodies": bodies(run),
+        "bodies": bodies(run), "spheres": shapes,
         "flow": ("fluid" in run.config or "grains" not in run.config) and always_along_x(run.config),
     }
     words = [quantise(diameters, 0.0, facts["dMax"])]
-    words += [quantise(x[:, axis], *bounds[axis]) for x in positions for axis in range(3)]
+    for n, x in enumerate(positions):
+        words += [quantise(x[:, axis], *bounds[axis]) for axis in range(3)]
+        words += [quantise(part, -1.0, 1.0) for part in turns[n].T] if turns else []
     words += [group] if groups else []
     facts["note"] = note(len(kept), largest, -(-largest // most_grains), len(chosen), len(file.frames))
     return facts, base64.b64encode(np.concatenate(words).tobytes()).decode()
@@ -73,6 +83,21 @@ def rows_of(grains, kept):
     place = place[found]
     x[found], d[found] = grains.x[place], grains.d[place]
     return x, d, found, place
+
+
+def shapes_by_kind(shapes):
+    """[x, y, z, radius] of the spheres of each kind; [] without clumps."""
+    if shapes is None:
+        return []
+    rows = np.column_stack([shapes.centre, shapes.radius]).round(5)
+    return [rows[shapes.kind == kind].tolist() for kind in range(shapes.kind.max() + 1)]
+
+
+def turned(orientation, found):
+    """(n, 3) x, y, z of the quaternions, w >= 0, of the grains that are `found`; 0 of the others."""
+    parts = np.zeros((len(found), 3))
+    parts[found] = orientation[:, 1:] * np.where(orientation[:, :1] < 0, -1, 1)
+    return parts
 
 
 def boxes(positions, diameters, domain):

@@ -69,12 +69,31 @@
     return Uint16Array.from({ length: bytes.length / 2 }, (_, i) => view.getUint16(2 * i, true));
   }
 
+  const shapes = facts.spheres || [];  // [x, y, z, radius] of the spheres of each kind, of a clump of diameter 1
+  const rows = shapes.length > 0 ? 6 : 3;  // of a frame: places, and of clumps three parts of a quaternion
+
+  function rowOf(words, index, row, low, high) {
+    const start = facts.n * (1 + rows * index + row);
+    return Float32Array.from(words.subarray(start, start + facts.n),
+      (q) => q === absent ? NaN : low + q / last * (high - low));
+  }
+
   function frameOf(words, index) {  // x, y, z [m] of all grains; absent ones are nan
-    return facts.bounds.map(([low, high], axis) => {
-      const start = facts.n * (1 + 3 * index + axis);
-      return Float32Array.from(words.subarray(start, start + facts.n),
-        (q) => q === absent ? NaN : low + q / last * (high - low));
+    return facts.bounds.map(([low, high], axis) => rowOf(words, index, axis, low, high));
+  }
+
+  function spheresOf(words, index, places) {  // x, y, z [m] of the spheres of all grains
+    if (shapes.length === 0) return places;
+    const turn = [3, 4, 5].map((row) => rowOf(words, index, row, -1, 1)), result = places.map(() => []);
+    places[0].forEach((_, grain) => {
+      const [a, b, c] = turn.map((part) => part[grain]), w = Math.sqrt(Math.max(0, 1 - a * a - b * b - c * c));
+      for (const [x, y, z] of shapeOf(grain)) {
+        const [i, j, k] = [2 * (b * z - c * y), 2 * (c * x - a * z), 2 * (a * y - b * x)];
+        const arm = [x + w * i + b * k - c * j, y + w * j + c * i - a * k, z + w * k + a * j - b * i];
+        arm.forEach((part, axis) => result[axis].push(places[axis][grain] + 2 * radii[grain] * part));
+      }
     });
+    return result;
   }
 
   function windowOf(index, follow) {  // [x0, x1, z0, z1] [m]: the channel, or the part with the dune
@@ -226,16 +245,23 @@
   const radii = Float32Array.from(words.subarray(0, facts.n), (q) => 0.5 * q / last * facts.dMax);
   const groups = facts.groups || [];
   const colours = groups.length > 0 ? groups.map(({ colour }) => colour) : facts.colours;
+  const group = facts.n ? words.subarray(facts.n * (1 + rows * facts.times.length)) : [];  // if there are several
+  const shapeOf = (grain) => shapes.length > 1 ? shapes[group[grain]] : shapes[0];
+  const grainOf = shapes.length > 0  // of each sphere
+    ? Array.from(radii.keys()).flatMap((grain) => shapeOf(grain).map(() => grain)) : Array.from(radii.keys());
+  const drawnRadii = shapes.length > 0  // of the spheres
+    ? Array.from(radii).flatMap((radius, grain) => shapeOf(grain).map((sphere) => 2 * radius * sphere[3])) : radii;
   let now = 0, timer = null;
 
   function draw() {
-    const places = frameOf(words, now), [x, y] = places, view = windowOf(now, element("near").checked);
+    const whole = frameOf(words, now), places = spheresOf(words, now, whole), [x] = places;
+    const view = windowOf(now, element("near").checked);
     const scale = element("top").clientWidth / (view[1] - view[0]);
     const inView = Array.from(x.keys()).filter((i) => x[i] > view[0] && x[i] < view[1]);
-    const group = words.subarray(facts.n * (1 + 3 * facts.times.length));  // of each grain, if there are several
-    const level = groups.length > 0 ? group : Int8Array.from(y, (height, i) => Math.min(colours.length - 1,
-      Math.max(0, Math.floor((height + radii[i]) / facts.top * colours.length))));
-    const grains = { level, radius: { of: radii, scale }, across: (i) => (x[i] - view[0]) * scale };
+    const height = (grain) => Math.floor((whole[1][grain] + radii[grain]) / facts.top * colours.length);
+    const level = grainOf.map((grain) => groups.length > 0 ? group[grain]
+      : Math.min(colours.length - 1, Math.max(0, height(grain))));
+    const grains = { level, radius: { of: drawnRadii, scale }, across: (i) => (x[i] - view[0]) * scale };
     drawFromAbove(element("top"), inView, places, view, grains);
     drawFromSide(element("side"), inView, places, view, grains);
   }
