@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "kernels/grains/sphere.hpp"
-#include "src/grains/clumps.hpp"
 #include "src/grains/grain_kinds.hpp"
 #include "src/grains/kinds.hpp"
 
@@ -20,7 +19,6 @@ void check_immersed(const Config& c, Findings& found) {
   };
   refuse(!c.bodies.empty(), {"body"}, "bodies");
   refuse(grains.feed.has_value(), {"grains.feed.amount"}, "grains that come in");
-  refuse(has_clumps(grains), {"grains.shape"}, "clumps");
   refuse(grains.floor == GrainFloor::glued, {"grains.floor"}, "a glued floor");
   refuse(grains.boundary_x != GrainBoundaryX::periodic, {"grains.boundary_x"},
          "a boundary_x other than \"periodic\"");
