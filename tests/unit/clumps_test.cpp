@@ -62,6 +62,8 @@ TEST(ClumpsOfACase, EachKindHasItsOwnShape) {
   EXPECT_EQ(shapes.count(0), 8);
   EXPECT_EQ(shapes.count(1), 2);
   EXPECT_EQ(shapes.count(2), 1);
+  EXPECT_EQ(shapes.largest_count(), 8);
+  EXPECT_EQ(ClumpShapes().largest_count(), 0);
   EXPECT_DOUBLE_EQ(shapes.inertia[2].x, 0.1);  // 2/5 of 1/2 squared
 }
 
