@@ -196,7 +196,7 @@ def draw(folder):
     spheres.legend(handles=[*spheres.get_legend_handles_labels()[0],
                             Line2D([], [], color="0.3", ls=(0, (4, 1.5)), lw=0.8, label="Zhou et al.")],
                    loc="lower right")
-    clumps.legend(loc="lower right")
+    clumps.legend(loc="lower right", fontsize="small", labelspacing=0.2)
     both.legend(loc="lower right")
     for index, axes in enumerate(panels.ravel()):
         style.panel_label(axes, index)
