@@ -33,7 +33,9 @@ COLOURS = dict(zip(("sphere", "dimer", "tetrahedron", "cube", "sand"), style.GRO
 
 
 def zhou(sliding, rolling, wall=0.5):
-    """Angle of repose of spheres [degrees], Zhou et al. (2002), of the same mu_r between grains and at the plate.
+    """Angle of repose of spheres [degrees], of the same mu_r between grains and at the plate.
+
+    The fit of Zhou et al., Powder Technol. 125, 45 (2002), as it is commonly quoted; not checked against the paper.
 
     Their rolling frictions are arms in mm, as is d: here mu_r d/4 between grains and mu_r d/2 at the plate. Of d there
     is left its power -0.02, which is left out.
