@@ -33,7 +33,9 @@ COLOURS = dict(zip(("sphere", "dimer", "tetrahedron", "cube", "sand"), style.GRO
 
 
 def zhou(sliding, rolling, wall=0.5):
-    """Angle of repose of spheres [degrees], Zhou et al. (2002), of the same mu_r between grains and at the plate.
+    """Angle of repose of spheres [degrees], of the same mu_r between grains and at the plate.
+
+    The fit of Zhou et al., Powder Technol. 125, 45 (2002), as it is commonly quoted; not checked against the paper.
 
     Their rolling frictions are arms in mm, as is d: here mu_r d/4 between grains and mu_r d/2 at the plate. Of d there
     is left its power -0.02, which is left out.
@@ -196,7 +198,7 @@ def draw(folder):
     spheres.legend(handles=[*spheres.get_legend_handles_labels()[0],
                             Line2D([], [], color="0.3", ls=(0, (4, 1.5)), lw=0.8, label="Zhou et al.")],
                    loc="lower right")
-    clumps.legend(loc="lower right")
+    clumps.legend(loc="lower right", fontsize="small", labelspacing=0.2)
     both.legend(loc="lower right")
     for index, axes in enumerate(panels.ravel()):
         style.panel_label(axes, index)

@@ -15,11 +15,12 @@ from barchan.figures.style import BODY, GROUPS, HEIGHT_MAP
 from barchan.io.clumps import spheres_of
 
 MOST_ROWS = 4000  # of a picture; one of a domain that is much wider than long is coarser
+DEEP, DEEP_CLUMPS = 1.5, 3.0  # diameters below all around that hide a grain; between clumps there are larger gaps
 LIGHT = np.array([-0.45, 0.78, -0.45])  # towards the light: x, y, z; upstream, above, left
 
 
-def hidden(x, d):
-    """Grains that cannot be seen from above: all around them others rise a diameter higher."""
+def hidden(x, d, deep=DEEP):
+    """Grains that cannot be seen from above: all around them others rise `deep` diameters higher."""
     cell = np.median(d)
     i = np.floor((x[:, 0] - x[:, 0].min()) / cell).astype(int) + 1
     k = np.floor((x[:, 2] - x[:, 2].min()) / cell).astype(int) + 1
@@ -28,7 +29,7 @@ def hidden(x, d):
     lowest = top.copy()
     for axis in (0, 1):
         lowest = np.minimum(np.minimum(np.roll(lowest, 1, axis), np.roll(lowest, -1, axis)), lowest)
-    return x[:, 1] + 0.5 * d < lowest[i, k] - 1.5 * d
+    return x[:, 1] + 0.5 * d < lowest[i, k] - deep * d
 
 
 def depth_buffer(x, d, window, pixel):
@@ -80,17 +81,18 @@ def top_view(grains, window, width, top, bodies=()):
 
 def coloured_view(grains, colours, window, width, bodies=()):
     """The same with a colour for each grain: colours (N, 3)."""
-    spheres = spheres_of(grains)
-    x, d, colours = spheres.x, spheres.d, colours[spheres.grain]
+    x, d = grains.x, grains.d
     inside = ((x[:, 0] > window[0]) & (x[:, 0] < window[1]) & (x[:, 2] > window[2])
               & (x[:, 2] < window[3]))
-    x, d, colours = x[inside], d[inside], colours[inside]
     pixel = max((window[1] - window[0]) / width, (window[3] - window[2]) / MOST_ROWS)
-    if len(d) == 0:
+    if not inside.any():
         picture = np.ones([max(1, round((high - low) / pixel)) for low, high in (window[2:], window[:2])] + [3])
         return with_bodies(picture, 0.0, bodies, window, 1)
-    visible = ~hidden(x, d)
-    x, d, colours = x[visible], d[visible], colours[visible]
+    visible = inside.copy()
+    visible[inside] = ~hidden(x[inside], d[inside], DEEP if grains.orientation is None else DEEP_CLUMPS)
+    spheres = spheres_of(grains)
+    drawn = visible[spheres.grain]
+    x, d, colours = spheres.x[drawn], spheres.d[drawn], colours[spheres.grain[drawn]]
     # Finer than the grains, then averaged: smooth edges, at a bounded size.
     finer = int(np.clip(np.ceil(6 * pixel / np.median(d)), 2, 6))
     grain, height = depth_buffer(x, d, window, pixel / finer)
