@@ -1,5 +1,6 @@
 // Rigid clumps of spheres through list, contact law and integrator, against the mechanics of rigid
 // bodies.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
