@@ -3,7 +3,6 @@
 #pragma once
 
 #include "kernels/grains/clump_motion.hpp"
-#include "kernels/grains/sphere.hpp"
 
 namespace barchan {
 

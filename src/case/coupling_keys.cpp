@@ -1,6 +1,5 @@
 #include "src/case/coupling_keys.hpp"
 
-#include "src/case/case_keys.hpp"
 #include "src/case/case_values.hpp"
 #include "src/toml/key_builder.hpp"
 
