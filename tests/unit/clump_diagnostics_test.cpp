@@ -5,7 +5,6 @@
 #include <set>
 
 #include "kernels/grains/sphere.hpp"
-#include "src/case/immersed_checks.hpp"
 #include "src/diagnostics/bed_load.hpp"
 #include "src/diagnostics/gathered_grains.hpp"
 #include "src/initial/initial_state.hpp"
@@ -227,20 +226,6 @@ TEST(ClumpDiagnostics, ClumpsInABodyCountOnce) {
   for (const Real x : {4e-3, 5e-3, 6e-3, 8e-3}) add_grain(grains, kD, {x, 2e-3, 5e-3});
   const auto said = message_of([&] { check_outside_bodies(spheres_at_start(grains, c), c, "it"); });
   EXPECT_TRUE(said.starts_with("it: 3 grains lie in body \"post\"")) << said;
-}
-
-TEST(ClumpDiagnostics, ClumpsDoNotMoveInAResolvedFlow) {
-  Config c = loose_case({});
-  c.grains->boundary_x = GrainBoundaryX::periodic;
-  c.grains->boundary_z = GrainBoundaryZ::periodic;
-  const auto refusals = [&] {
-    Findings found;
-    check_immersed(c, found);
-    return found.all.size();
-  };
-  EXPECT_EQ(refusals(), 0u);
-  c.grains->shape = {.shape = GrainShape::clump, .clump = NamedClump::cube};
-  EXPECT_EQ(refusals(), 1u);
 }
 
 }  // namespace
