@@ -80,7 +80,9 @@ struct GatherFluid {
       const PartOfClump part = on_grains.part(g);
       beta *= part.share * shape(flow, part, flow_at.u(g) - grain.u);
     }
-    return forces.wall_drag ? beta * floor_drag_factor(flow, grain.x.y - grain.r) : beta;
+    return forces.wall_drag
+               ? beta * floor_drag_factor(flow, grain.x.y - on_grains.to_surface(g, grain))
+               : beta;
   }
 };
 

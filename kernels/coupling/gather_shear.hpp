@@ -25,7 +25,7 @@ struct GatherShear {
     const Real alpha = limited_fraction(flow_at.alpha_o(g));
     if (lift) {
       const Vec3 force =
-          on_grains.share(g) * lift_on(grain, on_grains.u_f(g) - grain.u, vorticity, alpha);
+          on_grains.share(g) * lift_on(g, grain, on_grains.u_f(g) - grain.u, vorticity, alpha);
       exchange.lift(g) = force;
       on_grains.explicit_force(g) += force;
     }
@@ -39,11 +39,12 @@ struct GatherShear {
 
  private:
   /// Lift [N] at the slip that the drag sees. Its ratio to the drag is that of a lone grain.
-  KOKKOS_INLINE_FUNCTION Vec3 lift_on(const GrainKinematics& grain, const Vec3& slip,
+  KOKKOS_INLINE_FUNCTION Vec3 lift_on(int g, const GrainKinematics& grain, const Vec3& slip,
                                       const Vec3& vorticity, Real alpha) const {
     const Real w = norm(vorticity);
     if (w == 0) return {};
-    const Real above = floor ? grain.x.y - grain.r : Kokkos::Experimental::infinity_v<Real>;
+    const Real above = floor ? grain.x.y - on_grains.to_surface(g, grains(g))
+                             : Kokkos::Experimental::infinity_v<Real>;
     const Real k = lift_coefficient({.rho_f = rho_f,
                                      .mu_f = mu_f,
                                      .d_p = 2 * grain.r,

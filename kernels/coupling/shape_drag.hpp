@@ -86,8 +86,9 @@ struct DragOfSphere {
 
 using ShapeDragLaws = Alternatives<HoelzerSommerfeld, Ganser, DragOfSphere>;
 
-/// Factor of the shape on the drag of the sphere of equal volume: that of a law in clear water. So
-/// a shape near a sphere has the drag of a sphere, whatever the law of the case.
+/// Factor of the shape on the drag of the sphere of equal volume: that of a law in clear water. It
+/// is 1 for a sphere, whatever the law of the case, and rises steeply beside it where the flow is
+/// fast: Hoelzer & Sommerfeld give 1.1 at a sphericity of 0.999 and Re = 100.
 struct ShapeFactor {
   Choice<ShapeDragLaws> law;
 

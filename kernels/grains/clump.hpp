@@ -45,6 +45,7 @@ struct ClumpShapes {
   InertiaInContacts in_contacts[kMaxKinds] = {};
   Vec3 shadows[kMaxKinds] = {};           // areas seen along the principal axes
   Real sphericity[kMaxKinds] = {};        // surface of the sphere of its volume over its own
+  Real over_largest_sphere = 1;           // d over the diameter of its largest sphere, at most
   Kokkos::View<const Vec4*> sphere = {};  // centre and radius
   Kokkos::View<const Real*> share = {};   // of each sphere in the volume
 
@@ -73,8 +74,9 @@ struct alignas(32) PartOfClump {
   Vec3 shadows;         // areas that the clump has along its principal axes, for d = 1
   Real sphericity = 1;  // of the clump
   Real d = 0;           // diameter of the sphere of the clump's volume [m]
+  Real radius = 0;      // of the sphere [m]
   Real share = 1;       // of the part in that volume
-  Real rest[2] = {};    // not used
+  Real rest = 0;        // not used
 };
 
 /// Entries of the spheres of each clump, the clumps in the order of their first spheres.

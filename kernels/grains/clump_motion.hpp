@@ -37,6 +37,7 @@ struct ClumpsOfGrains {
             .shadows = shapes.shadows[of_kind],
             .sphericity = shapes.sphericity[of_kind],
             .d = c.d,
+            .radius = c.d * shapes.sphere(shapes.first[of_kind] + member).w(),
             .share = shapes.share(shapes.first[of_kind] + member)};
   }
   /// Principal moments of inertia [kg m^2].
@@ -105,13 +106,12 @@ struct MoveClumps {
   }
 
  private:
-  /// Half a kick, or two: the end of one grain step and the start of the next. The torque of a
-  /// fluid is that on the sphere of the clump's volume.
+  /// Half a kick, or two: the end of one grain step and the start of the next.
   KOKKOS_FORCEINLINE_FUNCTION void kick(int head, int kind, const ClumpForce& contacts,
                                         ClumpMotion& c) const {
     GrainForces f{};
     f.force = contacts.force + fluid.explicit_force(head);
-    MotionCoefficients coefficients{.mass = c.m, .inertia_moment = sphere_inertia(c.m, c.d / 2)};
+    MotionCoefficients coefficients{.mass = c.m, .inertia_moment = 1};
     if (fluid.has_fluid) {
       f.u_f = fluid.u_f_after(elapsed, head);
       f.acceleration = fluid.acceleration(head);
@@ -119,19 +119,26 @@ struct MoveClumps {
       coefficients.beta = fluid.beta(head);
       coefficients.added_mass = fluid.added_mass(head);
     }
-    Vec3 spin;
-    if (fluid.has_torque) {
-      spin = clumps.spin(c, kind);
-      f.omega_f = fluid.omega_f(head);
-      coefficients.beta_r = fluid.beta_r(head);
-    }
-    const Vec3 spin_before = spin;
     const HalfKick half_kick(dt / 2, coefficients);
-    Vec3 impulse = half_kick(f, c.u, spin);
-    if constexpr (moves == Moves::between) impulse += half_kick(f, c.u, spin);
-    c.j = fma(moves == Moves::between ? dt : dt / 2, contacts.torque, c.j);
-    if (fluid.has_torque) c.j += coefficients.inertia_moment * (spin - spin_before);
+    Vec3 no_spin{};
+    Vec3 impulse = half_kick(f, c.u, no_spin);
+    if constexpr (moves == Moves::between) impulse += half_kick(f, c.u, no_spin);
+    const Real h = moves == Moves::between ? dt : dt / 2;
+    c.j = fma(h, contacts.torque, c.j);
+    if (fluid.has_torque) c.j = turned_by_fluid(head, kind, h, c);
     if (fluid.has_fluid) fluid.impulse(head) += impulse;
+  }
+
+  /// Angular momentum after a time h of the torque beta_r (omega_f - omega) on the sphere of the
+  /// clump's volume, implicit in the spin: l_k = (l_k + h beta_r omega_fk)/(1 + h beta_r/I_k) along
+  /// the principal axes.
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 turned_by_fluid(int head, int kind, Real h,
+                                                   const ClumpMotion& c) const {
+    const Real rate = h * fluid.beta_r(head);
+    const Vec3 inertia = clumps.inertia(c, kind);
+    const Vec3 l = rotate_back(c.q, c.j + rate * fluid.omega_f(head));
+    return rotate(c.q, {l.x / (1 + rate / inertia.x), l.y / (1 + rate / inertia.y),
+                        l.z / (1 + rate / inertia.z)});
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void move_spheres(int clump, const ClumpMotion& c, int kind,

@@ -36,6 +36,10 @@ struct FluidOnGrains {
   KOKKOS_FORCEINLINE_FUNCTION Real radius(int g, const GrainKinematics& grain) const {
     return part.extent(0) > 0 ? part(g).d / 2 : grain.r;
   }
+  /// Distance from the centre of an entry to its surface [m].
+  KOKKOS_FORCEINLINE_FUNCTION Real to_surface(int g, const GrainKinematics& grain) const {
+    return part.extent(0) > 0 ? part(g).radius : grain.r;
+  }
   /// Share of an entry in its grain.
   KOKKOS_FORCEINLINE_FUNCTION Real share(int g) const {
     return part.extent(0) > 0 ? part(g).share : Real(1);

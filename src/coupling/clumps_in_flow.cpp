@@ -1,5 +1,8 @@
 #include "src/coupling/clumps_in_flow.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "kernels/coupling/clump_parts.hpp"
 #include "src/grains/clumps.hpp"
 #include "src/grains/grain_arrays.hpp"
@@ -7,17 +10,20 @@
 
 namespace barchan {
 
-GrainState& ClumpsInFlow::parts(GrainState& grains) {
-  if (grains.clump.size() == 0) return grains;
-  reserve_entries(kin_, grains.n);
+ClumpsInFlow::Parts::Parts(GrainState& grains, Kokkos::View<GrainKinematics*>& kin)
+    : grains_(grains), kin_(kin) {
+  if (grains.clump.size() == 0) return;
+  reserve_entries(kin, std::max(grains.n, 1));  // ranks agree on what they send
   Kokkos::parallel_for("clumps: parts", items(grains.members.n),
                        PartsOfClumps{.clumps = clumps_of(grains),
                                      .grains = grains.kin,
-                                     .part_kin = kin_,
+                                     .part_kin = kin,
                                      .part = grains.fluid.part});
-  parts_ = grains;
-  parts_.kin = kin_;
-  return parts_;
+  std::swap(grains.kin, kin);
+}
+
+ClumpsInFlow::Parts::~Parts() {
+  if (grains_.clump.size() > 0) std::swap(grains_.kin, kin_);
 }
 
 void ClumpsInFlow::join(const GrainState& grains) {

@@ -77,9 +77,10 @@ void CoupledStep::start(SystemState& state) {
         });
   }
   if (grains_) grains_->start(*state.grains);
-  if (exchange_)
-    exchange_->start(fluid_side_.to_fluid_ranks(clumps_.parts(*state.grains), kDepositReads),
-                     *state.fluid);
+  if (exchange_) {
+    const auto parts = clumps_.parts(*state.grains);
+    exchange_->start(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid);
+  }
   if (!fluid_) return;
   fluid_->fill_ghosts(*state.fluid);
   fluid_->flow_around_bodies(*state.fluid);
@@ -98,9 +99,9 @@ void CoupledStep::gather(SystemState& state) {
   GrainState& grains = *state.grains;
   const PhaseTimer timer(phases_, exchange_ ? "exchange" : "grains");
   if (exchange_) {
-    GrainState& parts = clumps_.parts(grains);
-    exchange_->gather(*state.fluid, fluid_side_.to_fluid_ranks(parts, kGatherReads), dt_);
-    fluid_side_.to_grain_ranks(parts, kGatherWrites);
+    const auto parts = clumps_.parts(grains);
+    exchange_->gather(*state.fluid, fluid_side_.to_fluid_ranks(grains, kGatherReads), dt_);
+    fluid_side_.to_grain_ranks(grains, kGatherWrites);
     ClumpsInFlow::join(grains);
   } else {
     still_.grains = grains.kin;
@@ -131,8 +132,8 @@ void CoupledStep::deposit(SystemState& state) {
   if (!exchange_) return;
   const PhaseTimer timer(phases_, "deposit");
   ClumpsInFlow::split(*state.grains);
-  const GrainState& parts = clumps_.parts(*state.grains);
-  exchange_->deposit(fluid_side_.to_fluid_ranks(parts, kDepositReads), *state.fluid, dt_);
+  const auto parts = clumps_.parts(*state.grains);
+  exchange_->deposit(fluid_side_.to_fluid_ranks(*state.grains, kDepositReads), *state.fluid, dt_);
 }
 
 void CoupledStep::advance_fluid(SystemState& state) {

@@ -1,7 +1,5 @@
 #include "src/coupling/layered_exchange.hpp"
 
-#include <algorithm>
-
 #include "kernels/coupling/force_density.hpp"
 #include "src/parallel/cell_reductions.hpp"
 
@@ -21,8 +19,7 @@ bool may_be_oversubscribed(const Grid& grid, Real d) {
 LayeredExchange::LayeredExchange(const FlowAndGrains& of)
     : UnresolvedExchange(of, {.points = PointModel::divided}, true),
       oversubscribed_(may_be_oversubscribed(
-          of.grid, std::max(2 * of.grains.r_max,
-                            of.grains.clump.size() > 0 ? of.grains.sauter_diameter : Real(0)))) {}
+          of.grid, 2 * of.grains.r_max * of.grains.shapes.over_largest_sphere)) {}
 
 void LayeredExchange::gather(const FluidState& fluid, GrainState& grains, Real dt) {
   begin_gather(fluid, grains);

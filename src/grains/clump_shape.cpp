@@ -18,6 +18,7 @@ namespace barchan {
 namespace {
 
 constexpr Real kGap = 1e-5;         // spheres that touch may be as far apart, over their radii
+constexpr Real kLeastShare = 1e-6;  // of a sphere in the volume of its clump
 constexpr Real kSameMoment = 1e-9;  // moments that differ by less, over the largest, are equal
 
 Eigen::Vector3d eigen(const Vec3& a) { return {a.x, a.y, a.z}; }
@@ -108,6 +109,11 @@ std::string problem_of_clump(const std::vector<ClumpSphere>& spheres) {
   }
   if (const std::size_t j = first_apart(spheres); j > 0)
     return fmt::format("sphere {} of a clump touches none that is joined to sphere 1", j + 1);
+  const UnionMoments moments = moments_of_union(spheres, kNodes);
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    if (moments.volumes[i] < kLeastShare * moments.volume)
+      return fmt::format("sphere {} of a clump is wholly inside the others; leave it out", i + 1);
+  }
   return {};
 }
 

@@ -38,6 +38,9 @@ struct ClumpShape {
   Real sphericity() const;
 };
 
+/// Nodes of the quadrature in each interval.
+inline constexpr int kNodes = 16;
+
 /// What is wrong with a clump, as a sentence; empty if nothing.
 std::string problem_of_clump(const std::vector<ClumpSphere>& spheres);
 
@@ -45,7 +48,7 @@ std::string problem_of_clump(const std::vector<ClumpSphere>& spheres);
 /// exact, their integral is by Gauss-Legendre quadrature with `nodes` in each interval between two
 /// heights at which a slice changes its topology. Relative error of 16 nodes: below 1e-12. Axes of
 /// equal moments are as near to those given as can be.
-ClumpShape clump_shape(const std::vector<ClumpSphere>& spheres, int nodes = 16);
+ClumpShape clump_shape(const std::vector<ClumpSphere>& spheres, int nodes = kNodes);
 
 /// Area of the shadow of a clump in a direction, of any length, in the frame of its spheres; exact.
 Real projected_area(const std::vector<ClumpSphere>& spheres, const Vec3& direction);

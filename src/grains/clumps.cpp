@@ -129,6 +129,8 @@ ClumpShapes clump_shapes(const GrainConfig& grains) {
     shapes.inertia[k] = shape.inertia;
     shapes.shadows[k] = shape.projected_areas;
     shapes.sphericity[k] = shape.sphericity();
+    const Real largest = std::ranges::max(shape.spheres, {}, &ClumpSphere::radius).radius;
+    shapes.over_largest_sphere = std::max(shapes.over_largest_sphere, 1 / (2 * largest));
     shapes.in_contacts[k] = inertia_of(kind.shape);
     for (const auto& [c, radius] : shape.spheres) spheres.emplace_back(c.x, c.y, c.z, radius);
     shares.insert(shares.end(), shape.shares.begin(), shape.shares.end());

@@ -94,6 +94,9 @@ TEST(ClumpsOfACase, MistakesAreToldWhereTheyAre) {
   tells("shape = \"clump\"\nspheres = [[0, 0, 0, 1], [3, 0, 0, 1]]\n",
         "11: [grains] spheres = [[0, 0, 0, 1], [3, 0, 0, 1]]: must be a whole: sphere 2 of a "
         "clump touches none that is joined to sphere 1");
+  tells("shape = \"clump\"\nspheres = [[0, 0, 0, 0.5], [0.6, 0, 0, 1], [-0.6, 0, 0, 1]]\n",
+        "11: [grains] spheres = [[0, 0, 0, 0.5], [0.6, 0, 0, 1], [-0.6, 0, 0, 1]]: must be a "
+        "whole: sphere 1 of a clump is wholly inside the others; leave it out");
   const std::string cubes = "[[0.2e-3, 100]]\nshape = \"clump\"\nclump = \"cube\"";
   EXPECT_EQ(problems(coupled_case(cubes)), std::vector<std::string>{});
   EXPECT_EQ(problems(coupled_case(cubes + "\nfrozen = true\n[coupling]\nscheme = \"resolved\""))[0],
