@@ -1,5 +1,7 @@
 #include "src/grains/clumps.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -39,6 +41,34 @@ const ClumpShape& shape_of(const ShapeConfig& shape) {
     if (given == spheres) return made;
   if (!problem_of_clump(spheres).empty()) return sphere;
   return known.emplace_back(spheres, clump_shape(spheres)).second;
+}
+
+/// Tells if every sphere of a clump of diameter 1 is one of another, to 1e-6 of the diameter.
+bool among(const std::vector<ClumpSphere>& some, const std::vector<ClumpSphere>& all) {
+  constexpr Real near = 1e-6;
+  return std::ranges::all_of(some, [&](const ClumpSphere& a) {
+    return std::ranges::any_of(all, [&](const ClumpSphere& b) {
+      return norm(a.centre - b.centre) < near && std::abs(a.radius - b.radius) < near;
+    });
+  });
+}
+
+bool same_shape(const ShapeConfig& a, const ShapeConfig& b) {
+  if (!is_clump(a) || !is_clump(b)) return is_clump(a) == is_clump(b);
+  const std::size_t count = spheres_of(a).size();
+  if (count != spheres_of(b).size() || count > kMostSpheres) return spheres_of(a) == spheres_of(b);
+  const auto &one = shape_of(a).spheres, &other = shape_of(b).spheres;
+  return among(one, other) && among(other, one);
+}
+
+/// Name of a shape for messages.
+std::string words_of(const ShapeConfig& shape) {
+  if (!is_clump(shape)) return "spheres";
+  for (std::size_t n = 0; n < kNamedClumps.size(); ++n) {
+    const ShapeConfig named{.shape = GrainShape::clump, .clump = static_cast<NamedClump>(n)};
+    if (same_shape(shape, named)) return fmt::format("clumps \"{}\"", kNamedClumps[n]);
+  }
+  return fmt::format("clumps of {} spheres", spheres_of(shape).size());
 }
 
 /// Random rotation, all of them alike: Shoemake, Graphics Gems III, 124 (1992).
@@ -89,6 +119,18 @@ bool has_clumps(const GrainConfig& grains) {
 
 int sphere_count(const ShapeConfig& shape) {
   return is_clump(shape) ? static_cast<int>(spheres_of(shape).size()) : 1;
+}
+
+std::string unlike_shape(const GrainConfig& grains, int kind, const ShapeConfig& theirs) {
+  const KindConfig ours = all_kinds(grains)[static_cast<std::size_t>(kind)];
+  if (same_shape(ours.shape, theirs)) return {};
+  const std::string section =
+      grains.kinds.empty() ? "grains" : fmt::format("grains.kind.{}", kind + 1);
+  const std::string key = !is_clump(ours.shape) ? "shape" : ours.shape.clump ? "clump" : "spheres";
+  const std::string of = ours.name.empty() ? "" : fmt::format(" of the kind \"{}\"", ours.name);
+  const std::string held = words_of(theirs), said = words_of(ours.shape);
+  return fmt::format("hold {}{}, as {}.{} says; it holds {}", said, of, section, key,
+                     held == said ? "others" : held);
 }
 
 double width_of(const ShapeConfig& shape) { return 2 * shape_of(shape).bounding_radius; }
