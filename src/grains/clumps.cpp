@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "kernels/grains/sphere.hpp"
 #include "kernels/math/random.hpp"
 #include "src/base/enum_names.hpp"
 #include "src/grains/grain_kinds.hpp"
+#include "src/grains/inertia_in_contacts.hpp"
 #include "src/grains/kinds.hpp"
 #include "src/grains/named_clumps.hpp"
 #include "src/parallel/launch.hpp"
@@ -25,23 +26,35 @@ namespace {
 constexpr Real kPi = std::numbers::pi_v<Real>;
 constexpr std::uint64_t kPurpose = 74;  // of the random numbers of orientations
 
-/// Shape of a kind, of volume pi/6. Those of all kinds of a program are few: they are kept. One
-/// that is none, as check_shapes tells, is taken as a sphere.
-const ClumpShape& shape_of(const ShapeConfig& shape) {
-  static const ClumpShape sphere{.spheres = {{{}, 0.5}},
-                                 .shares = {1},
-                                 .inertia = {0.1, 0.1, 0.1},
-                                 .bounding_radius = 0.5,
-                                 .surface = kPi,
-                                 .projected_areas = {kPi / 4, kPi / 4, kPi / 4}};
-  static std::deque<std::pair<std::vector<ClumpSphere>, ClumpShape>> known;
+/// Shape of a kind, of volume pi/6, with its inertia in the contacts of each sphere.
+struct KnownShape {
+  std::vector<ClumpSphere> given;
+  ClumpShape shape;
+  std::vector<InertiaInContacts> in_contacts;
+};
+
+/// Shape of a kind. Those of all kinds of a program are few: they are kept. One that is none, as
+/// check_shapes tells, is taken as a sphere.
+const KnownShape& known_shape(const ShapeConfig& shape) {
+  static const KnownShape sphere{{},
+                                 {.spheres = {{{}, 0.5}},
+                                  .shares = {1},
+                                  .inertia = {0.1, 0.1, 0.1},
+                                  .bounding_radius = 0.5,
+                                  .surface = kPi,
+                                  .projected_areas = {kPi / 4, kPi / 4, kPi / 4}},
+                                 {{}}};
+  static std::deque<KnownShape> known;
   if (!is_clump(shape)) return sphere;
   const std::vector<ClumpSphere> spheres = spheres_of(shape);
-  for (const auto& [given, made] : known)
-    if (given == spheres) return made;
+  for (const KnownShape& one : known)
+    if (one.given == spheres) return one;
   if (!problem_of_clump(spheres).empty()) return sphere;
-  return known.emplace_back(spheres, clump_shape(spheres)).second;
+  const ClumpShape made = clump_shape(spheres);
+  return known.emplace_back(KnownShape{spheres, made, inertia_in_contacts(made)});
 }
+
+const ClumpShape& shape_of(const ShapeConfig& shape) { return known_shape(shape).shape; }
 
 /// Tells if every sphere of a clump of diameter 1 is one of another, to 1e-6 of the diameter.
 bool among(const std::vector<ClumpSphere>& some, const std::vector<ClumpSphere>& all) {
@@ -157,27 +170,28 @@ double longest_arm(const GrainConfig& grains) {
 }
 
 InertiaInContacts inertia_of(const ShapeConfig& shape) {
-  if (!is_clump(shape)) return {};
-  return inertia_in_contacts(shape_of(shape).inertia.x, shape_of(shape).bounding_radius);
+  return std::ranges::min(known_shape(shape).in_contacts, {}, &InertiaInContacts::spin);
 }
 
 ClumpShapes clump_shapes(const GrainConfig& grains) {
   ClumpShapes shapes;
   std::vector<Vec4> spheres;
   std::vector<Real> shares;
+  std::vector<InertiaInContacts> in_contacts;
   int k = 0;
   for (const KindConfig& kind : all_kinds(grains)) {
     const ClumpShape& shape = shape_of(kind.shape);
     shapes.inertia[k] = shape.inertia;
     shapes.shadows[k] = shape.projected_areas;
     shapes.sphericity[k] = shape.sphericity();
-    shapes.in_contacts[k] = inertia_of(kind.shape);
+    std::ranges::copy(known_shape(kind.shape).in_contacts, std::back_inserter(in_contacts));
     for (const auto& [c, radius] : shape.spheres) spheres.emplace_back(c.x, c.y, c.z, radius);
     shares.insert(shares.end(), shape.shares.begin(), shape.shares.end());
     shapes.first[++k] = static_cast<int>(spheres.size());
   }
   shapes.sphere = on_device("spheres of clumps", spheres);
   shapes.share = on_device("shares of spheres", shares);
+  shapes.in_contacts = on_device("inertia in contacts", in_contacts);
   return shapes;
 }
 

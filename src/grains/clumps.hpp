@@ -37,7 +37,7 @@ Widths widths_of(const GrainConfig& grains, const std::vector<SizeClass>& sizes)
 /// the largest sphere of its kind.
 double longest_arm(const GrainConfig& grains);
 
-/// Inertia of grains of this shape against forces along their surface.
+/// Inertia of grains of this shape in contacts of the sphere that turns them most easily.
 InertiaInContacts inertia_of(const ShapeConfig& shape);
 
 /// Shapes of all kinds for kernels.

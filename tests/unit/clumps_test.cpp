@@ -11,6 +11,7 @@
 #include "src/case/grain_checks.hpp"
 #include "src/case/heaps.hpp"
 #include "src/case/resolved.hpp"
+#include "src/grains/inertia_in_contacts.hpp"
 #include "src/grains/kinds.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
@@ -186,6 +187,37 @@ TEST(ClumpsOfACase, StableStepIsThatOfEachKind) {
   grains.x[0].x = 2.19e-3 - 1e-4 - 1.99e-4 / 2 * width_of(c.grains->kinds[1].shape);
   const ClumpBench beside(c, grains);
   EXPECT_LT(beside.solver.stable_step(beside.state), 0.7 * step);
+}
+
+/// By hand for spheres of radius 1 that touch in a row: a force across the row and the normal, at
+/// the angle of cosine c from the axis on a sphere at a, has (1 - c^2)/I_1 + (a + c)^2/I_2, largest
+/// at c = a / (I_2/I_1 - 1), with I_1 = 2/5 and I_2 = 7/5 for two, 27/5 for four.
+TEST(ClumpsOfACase, InertiaInContactsIsThatOfTheWorstPoint) {
+  const auto near = [](const InertiaInContacts& found, Real compliance) {
+    EXPECT_NEAR(found.spin * compliance, 1.005, 0.005);  // from points: never below the least
+    EXPECT_DOUBLE_EQ(found.slip, found.spin / (1 + found.spin));
+  };
+  const auto two = inertia_in_contacts(clump_shape({{{0, 0, 0}, 1}, {{2, 0, 0}, 1}}));
+  ASSERT_EQ(two.size(), 2u);
+  for (const InertiaInContacts& sphere : two) near(sphere, 3.5);
+  const auto four = inertia_in_contacts(clump_shape(rod()));
+  ASSERT_EQ(four.size(), 4u);
+  near(four[0], 4.3), near(four[1], 2.7), near(four[2], 2.7), near(four[3], 4.3);
+  near(inertia_of({.shape = GrainShape::clump, .spheres = rod()}), 4.3);
+  EXPECT_EQ(inertia_of({}).spin, kSpinInertia);
+  EXPECT_EQ(inertia_of({}).slip, kSlipInertia);
+}
+
+/// The chosen step of a chain is near that of spheres, whose spin is no slower.
+TEST(ClumpsOfACase, ChosenStepOfAChainIsNearThatOfSpheres) {
+  const auto step = [](const std::string& shape) {
+    return case_of("youngs_modulus = 2e4\n" + shape).time.grain_step;
+  };
+  const Real chain = step(
+      "shape = \"clump\"\nspheres = [[0, 0, 0, 1], [2, 0, 0, 1], [4, 0, 0, 1], [6, 0, 0, 1], "
+      "[8, 0, 0, 1], [10, 0, 0, 1]]\n");
+  EXPECT_LT(chain, step(""));
+  EXPECT_GT(chain, step("") / 2);
 }
 
 /// Beds that are timed for an estimate: no sphere of them lies below the floor by its centre.
