@@ -40,14 +40,14 @@ KOKKOS_FORCEINLINE_FUNCTION constexpr std::int64_t id_of_member(std::int64_t clu
 
 /// Shapes of the kinds of grains, of diameter and mass 1; a sphere is a clump of one.
 struct ClumpShapes {
-  int first[kMaxKinds + 1] = {};  // first sphere of each kind in `sphere`
-  Vec3 inertia[kMaxKinds] = {};   // principal moments
-  InertiaInContacts in_contacts[kMaxKinds] = {};
+  int first[kMaxKinds + 1] = {};          // first sphere of each kind in `sphere`
+  Vec3 inertia[kMaxKinds] = {};           // principal moments
   Vec3 shadows[kMaxKinds] = {};           // areas seen along the principal axes
   Real sphericity[kMaxKinds] = {};        // surface of the sphere of its volume over its own
   Real over_largest_sphere = 1;           // d over the diameter of its largest sphere, at most
   Kokkos::View<const Vec4*> sphere = {};  // centre and radius
   Kokkos::View<const Real*> share = {};   // of each sphere in the volume
+  Kokkos::View<const InertiaInContacts*> in_contacts = {};  // of the clump, in those of each sphere
 
   KOKKOS_FORCEINLINE_FUNCTION int count(int kind) const { return first[kind + 1] - first[kind]; }
   /// Largest number of spheres of a grain; 0 without shapes.
@@ -57,10 +57,13 @@ struct ClumpShapes {
       largest = largest < count(kind) ? count(kind) : largest;
     return largest;
   }
-  /// Inertia in contacts of an entry; `kind` of all of them, empty: one kind.
+  /// Inertia in contacts of an entry; `kind` of all of them, empty: one kind. Without shapes, that
+  /// of a sphere.
   KOKKOS_FORCEINLINE_FUNCTION InertiaInContacts
-  in_contacts_of(const Kokkos::View<const std::uint8_t*>& kind, int g) const {
-    return in_contacts[kind.extent(0) > 0 ? kind(g) : 0];
+  in_contacts_of(const Kokkos::View<const std::uint8_t*>& kind,
+                 const Kokkos::View<const std::int64_t*>& id, int g) const {
+    if (in_contacts.extent(0) == 0) return {};
+    return in_contacts(first[kind.extent(0) > 0 ? kind(g) : 0] + member_of_id(id(g)));
   }
   /// Centre of a sphere in the principal frame.
   KOKKOS_FORCEINLINE_FUNCTION Vec3 centre(int kind, int member) const {

@@ -23,6 +23,7 @@ struct TangentialOfPairs {
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<Real* [2]> sums;            // (n): stiffness [N/m], damping [kg/s]
   Kokkos::View<const std::uint8_t*> kind;  // kinds of the grains; empty: one kind
+  Kokkos::View<const std::int64_t*> id;
   ClumpShapes shapes = {};
 
   KOKKOS_FUNCTION void operator()(int p, Real& shortest) const {
@@ -35,8 +36,8 @@ struct TangentialOfPairs {
     const ContactStiffness k = law(effective.r, effective.m, overlap);
     add(i, k);
     add(j, k);
-    const Real slip =
-        Kokkos::min(shapes.in_contacts_of(kind, i).slip, shapes.in_contacts_of(kind, j).slip);
+    const Real slip = Kokkos::min(shapes.in_contacts_of(kind, id, i).slip,
+                                  shapes.in_contacts_of(kind, id, j).slip);
     const Real step = stable_step(k.k_t, k.gamma_t, slip * effective.m);
     shortest = step < shortest ? step : shortest;
   }
@@ -62,6 +63,7 @@ struct StableStepOfGrains {
   Kokkos::View<const GrainKinematics*> grains;
   Kokkos::View<const Real* [2]> sums;
   Kokkos::View<const std::uint8_t*> kind;  // kinds of the grains; empty: one kind
+  Kokkos::View<const std::int64_t*> id;
   ClumpShapes shapes = {};
 
   KOKKOS_FUNCTION void operator()(int g, Real& shortest) const {
@@ -71,14 +73,17 @@ struct StableStepOfGrains {
   /// Takes the step of the spin of a grain with all of its contacts.
   KOKKOS_FUNCTION void take_spin(const TangentialSums& all, int g, Real& shortest) const {
     if (all.stiffness <= 0) return;
-    const InertiaInContacts inertia = shapes.in_contacts_of(kind, g);
-    const Real step = stable_step(all.stiffness, all.damping, inertia.spin * grains(g).m);
+    const Real step = stable_step(all.stiffness, all.damping, spin_of(g) * grains(g).m);
     shortest = step < shortest ? step : shortest;
+  }
+  /// Inertia over its mass of the grain or clump of an entry, against spin by its contacts.
+  KOKKOS_FORCEINLINE_FUNCTION Real spin_of(int g) const {
+    return shapes.in_contacts_of(kind, id, g).spin;
   }
   /// Sums up the contacts of a grain; takes the step of each with a wall or a body alone.
   KOKKOS_FUNCTION TangentialSums contacts_of(int g, Real& shortest) const {
     const GrainKinematics& grain = grains(g);
-    const InertiaInContacts inertia = shapes.in_contacts_of(kind, g);
+    const InertiaInContacts inertia = shapes.in_contacts_of(kind, id, g);
     const auto& law = laws.of(kind.extent(0) > 0 ? law_entry(kind(g), 0) : std::uint8_t{0});
     Real stiffness = sums(g, 0), damping = sums(g, 1);
     const auto take = [&](Real step) { shortest = step < shortest ? step : shortest; };
@@ -96,7 +101,8 @@ struct StableStepOfGrains {
   }
 };
 
-/// The same for clumps, whose spheres turn together.
+/// The same for clumps, whose spheres turn together: a contact counts by how much it turns them, as
+/// many of the first sphere. With all at their worst points and directions this is a bound.
 template <class Laws>
 struct StableStepOfClumps {
   StableStepOfGrains<Laws> spheres;
@@ -108,7 +114,8 @@ struct StableStepOfClumps {
     const int count = spheres.shapes.count(spheres.kind.extent(0) > 0 ? spheres.kind(head) : 0);
     for (int p = begin; p < begin + count; ++p) {
       const TangentialSums of_one = spheres.contacts_of(members.entry(p), shortest);
-      all.stiffness += of_one.stiffness, all.damping += of_one.damping;
+      const Real share = spheres.spin_of(head) / spheres.spin_of(members.entry(p));
+      all.stiffness += share * of_one.stiffness, all.damping += share * of_one.damping;
     }
     spheres.take_spin(all, head, shortest);
   }

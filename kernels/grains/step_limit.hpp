@@ -17,15 +17,10 @@ KOKKOS_INLINE_FUNCTION Real stable_step(Real k, Real gamma, Real m) {
 /// against its spin alone: I / (m r^2) = 2/5.
 inline constexpr Real kSlipInertia = Real(2) / 7, kSpinInertia = Real(2) / 5;
 
-/// Inertia of a body over its mass: against slip in a contact, and against its spin alone.
+/// Inertia of a body over its mass in a contact: against slip, and against its spin alone. Default:
+/// that of a sphere.
 struct InertiaInContacts {
   Real slip = kSlipInertia, spin = kSpinInertia;
 };
-/// That of a body with the least moment `inertia` [kg m^2] over its mass and contacts at most `arm`
-/// [m] from its centre: 1 / (1 + m arm^2 / I) and I / (m arm^2). Limit: those of a sphere.
-KOKKOS_INLINE_FUNCTION InertiaInContacts inertia_in_contacts(Real inertia, Real arm) {
-  const Real spin = inertia / (arm * arm);
-  return {.slip = spin / (1 + spin), .spin = spin};
-}
 
 }  // namespace barchan

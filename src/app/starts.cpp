@@ -165,6 +165,7 @@ PlannedGrains grains_of(const Case& the_case, const fs::path& folder) {
   sizes = with_kinds_of(*config.grains, *start.realised.config.grains, std::move(sizes));
   if (planned.grains) {
     planned.grains->kind_names = names_of_kinds(*start.realised.config.grains);
+    planned.grains->shapes.clear();  // load_case() has compared them
     take_kinds(*planned.grains, *config.grains, source.string());
   }
   check_sizes(sizes, config, source);

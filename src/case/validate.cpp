@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/case/body_checks.hpp"
@@ -13,6 +14,7 @@
 #include "src/case/output_checks.hpp"
 #include "src/fluid/flow_schedule.hpp"
 #include "src/fluid/mesh.hpp"
+#include "src/grains/clumps.hpp"
 #include "src/grains/kinds.hpp"
 
 namespace barchan {
@@ -216,6 +218,17 @@ void check_window(const Config& c, const Config& start, Findings& found) {
                  fmt::join(start.size, ", "));
 }
 
+/// Checks that kinds have the shapes that they have in the case that this one starts from.
+void check_shapes_of_start(const GrainConfig& grains, const GrainConfig& start,
+                           const std::string& key, Findings& found) {
+  for (const KindConfig& kind : all_kinds(start)) {
+    const int here = std::max(kind_of_name(grains, kind.name), 0);
+    const std::string fault = unlike_shape(grains, here, kind.shape);
+    if (found.error_if(!fault.empty(), {key, "grains.shape", "grains.kind"}, "must {}", fault))
+      return;
+  }
+}
+
 std::vector<Finding> check_start(const Config& c, const Config& start, bool flow) {
   Findings found;
   const std::string key = flow ? "initial.fluid" : "initial.grains";
@@ -223,7 +236,8 @@ std::vector<Finding> check_start(const Config& c, const Config& start, bool flow
   found.error_if(!flow && !start.grains, {key}, "must be a case with [grains]");
   if (!flow && c.grains && start.grains) {
     const std::string problem = unknown_kinds(*c.grains, names_of_kinds(*start.grains));
-    found.error_if(!problem.empty(), {key, "grains.kind"}, "must {}", problem);
+    if (!found.error_if(!problem.empty(), {key, "grains.kind"}, "must {}", problem))
+      check_shapes_of_start(*c.grains, *start.grains, key, found);
   }
   if (c.initial.window) check_window(c, start, found);
   if (!flow || !c.fluid || !start.fluid || c.initial.window) return found.all;

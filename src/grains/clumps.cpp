@@ -1,16 +1,19 @@
 #include "src/grains/clumps.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "kernels/grains/sphere.hpp"
 #include "kernels/math/random.hpp"
 #include "src/base/enum_names.hpp"
 #include "src/grains/grain_kinds.hpp"
+#include "src/grains/inertia_in_contacts.hpp"
 #include "src/grains/kinds.hpp"
 #include "src/grains/named_clumps.hpp"
 #include "src/parallel/launch.hpp"
@@ -23,22 +26,62 @@ namespace {
 constexpr Real kPi = std::numbers::pi_v<Real>;
 constexpr std::uint64_t kPurpose = 74;  // of the random numbers of orientations
 
-/// Shape of a kind, of volume pi/6. Those of all kinds of a program are few: they are kept. One
-/// that is none, as check_shapes tells, is taken as a sphere.
-const ClumpShape& shape_of(const ShapeConfig& shape) {
-  static const ClumpShape sphere{.spheres = {{{}, 0.5}},
-                                 .shares = {1},
-                                 .inertia = {0.1, 0.1, 0.1},
-                                 .bounding_radius = 0.5,
-                                 .surface = kPi,
-                                 .projected_areas = {kPi / 4, kPi / 4, kPi / 4}};
-  static std::deque<std::pair<std::vector<ClumpSphere>, ClumpShape>> known;
+/// Shape of a kind, of volume pi/6, with its inertia in the contacts of each sphere.
+struct KnownShape {
+  std::vector<ClumpSphere> given;
+  ClumpShape shape;
+  std::vector<InertiaInContacts> in_contacts;
+};
+
+/// Shape of a kind. Those of all kinds of a program are few: they are kept. One that is none, as
+/// check_shapes tells, is taken as a sphere.
+const KnownShape& known_shape(const ShapeConfig& shape) {
+  static const KnownShape sphere{{},
+                                 {.spheres = {{{}, 0.5}},
+                                  .shares = {1},
+                                  .inertia = {0.1, 0.1, 0.1},
+                                  .bounding_radius = 0.5,
+                                  .surface = kPi,
+                                  .projected_areas = {kPi / 4, kPi / 4, kPi / 4}},
+                                 {{}}};
+  static std::deque<KnownShape> known;
   if (!is_clump(shape)) return sphere;
   const std::vector<ClumpSphere> spheres = spheres_of(shape);
-  for (const auto& [given, made] : known)
-    if (given == spheres) return made;
+  for (const KnownShape& one : known)
+    if (one.given == spheres) return one;
   if (!problem_of_clump(spheres).empty()) return sphere;
-  return known.emplace_back(spheres, clump_shape(spheres)).second;
+  const ClumpShape made = clump_shape(spheres);
+  return known.emplace_back(KnownShape{spheres, made, inertia_in_contacts(made)});
+}
+
+const ClumpShape& shape_of(const ShapeConfig& shape) { return known_shape(shape).shape; }
+
+/// Tells if every sphere of a clump of diameter 1 is one of another, to 1e-6 of the diameter.
+bool among(const std::vector<ClumpSphere>& some, const std::vector<ClumpSphere>& all) {
+  constexpr Real near = 1e-6;
+  return std::ranges::all_of(some, [&](const ClumpSphere& a) {
+    return std::ranges::any_of(all, [&](const ClumpSphere& b) {
+      return norm(a.centre - b.centre) < near && std::abs(a.radius - b.radius) < near;
+    });
+  });
+}
+
+bool same_shape(const ShapeConfig& a, const ShapeConfig& b) {
+  if (!is_clump(a) || !is_clump(b)) return is_clump(a) == is_clump(b);
+  const std::size_t count = spheres_of(a).size();
+  if (count != spheres_of(b).size() || count > kMostSpheres) return spheres_of(a) == spheres_of(b);
+  const auto &one = shape_of(a).spheres, &other = shape_of(b).spheres;
+  return among(one, other) && among(other, one);
+}
+
+/// Name of a shape for messages.
+std::string words_of(const ShapeConfig& shape) {
+  if (!is_clump(shape)) return "spheres";
+  for (std::size_t n = 0; n < kNamedClumps.size(); ++n) {
+    const ShapeConfig named{.shape = GrainShape::clump, .clump = static_cast<NamedClump>(n)};
+    if (same_shape(shape, named)) return fmt::format("clumps \"{}\"", kNamedClumps[n]);
+  }
+  return fmt::format("clumps of {} spheres", spheres_of(shape).size());
 }
 
 /// Random rotation, all of them alike: Shoemake, Graphics Gems III, 124 (1992).
@@ -91,6 +134,18 @@ int sphere_count(const ShapeConfig& shape) {
   return is_clump(shape) ? static_cast<int>(spheres_of(shape).size()) : 1;
 }
 
+std::string unlike_shape(const GrainConfig& grains, int kind, const ShapeConfig& theirs) {
+  const KindConfig ours = all_kinds(grains)[static_cast<std::size_t>(kind)];
+  if (same_shape(ours.shape, theirs)) return {};
+  const std::string section =
+      grains.kinds.empty() ? "grains" : fmt::format("grains.kind.{}", kind + 1);
+  const std::string key = !is_clump(ours.shape) ? "shape" : ours.shape.clump ? "clump" : "spheres";
+  const std::string of = ours.name.empty() ? "" : fmt::format(" of the kind \"{}\"", ours.name);
+  const std::string held = words_of(theirs), said = words_of(ours.shape);
+  return fmt::format("hold {}{}, as {}.{} says; it holds {}", said, of, section, key,
+                     held == said ? "others" : held);
+}
+
 double width_of(const ShapeConfig& shape) { return 2 * shape_of(shape).bounding_radius; }
 
 Widths widths_of(const GrainConfig& grains, const std::vector<SizeClass>& sizes) {
@@ -115,14 +170,14 @@ double longest_arm(const GrainConfig& grains) {
 }
 
 InertiaInContacts inertia_of(const ShapeConfig& shape) {
-  if (!is_clump(shape)) return {};
-  return inertia_in_contacts(shape_of(shape).inertia.x, shape_of(shape).bounding_radius);
+  return std::ranges::min(known_shape(shape).in_contacts, {}, &InertiaInContacts::spin);
 }
 
 ClumpShapes clump_shapes(const GrainConfig& grains) {
   ClumpShapes shapes;
   std::vector<Vec4> spheres;
   std::vector<Real> shares;
+  std::vector<InertiaInContacts> in_contacts;
   int k = 0;
   for (const KindConfig& kind : all_kinds(grains)) {
     const ClumpShape& shape = shape_of(kind.shape);
@@ -131,13 +186,14 @@ ClumpShapes clump_shapes(const GrainConfig& grains) {
     shapes.sphericity[k] = shape.sphericity();
     const Real largest = std::ranges::max(shape.spheres, {}, &ClumpSphere::radius).radius;
     shapes.over_largest_sphere = std::max(shapes.over_largest_sphere, 1 / (2 * largest));
-    shapes.in_contacts[k] = inertia_of(kind.shape);
+    std::ranges::copy(known_shape(kind.shape).in_contacts, std::back_inserter(in_contacts));
     for (const auto& [c, radius] : shape.spheres) spheres.emplace_back(c.x, c.y, c.z, radius);
     shares.insert(shares.end(), shape.shares.begin(), shape.shares.end());
     shapes.first[++k] = static_cast<int>(spheres.size());
   }
   shapes.sphere = on_device("spheres of clumps", spheres);
   shapes.share = on_device("shares of spheres", shares);
+  shapes.in_contacts = on_device("inertia in contacts", in_contacts);
   return shapes;
 }
 

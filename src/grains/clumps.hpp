@@ -1,6 +1,7 @@
 // Grains that are clumps of spheres: their shapes, and the way from grains to spheres and back.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "kernels/grains/clump_motion.hpp"
@@ -20,6 +21,11 @@ bool has_clumps(const GrainConfig& grains);
 /// Number of spheres of a grain.
 int sphere_count(const ShapeConfig& shape);
 
+/// Fault of grains that come with the shape `theirs` for a kind of the case, in words that follow
+/// "must"; empty if it is the kind's. A clump by its name and one by a table, in any unit and
+/// order, are the same if their spheres are, to 1e-6 of the diameter.
+std::string unlike_shape(const GrainConfig& grains, int kind, const ShapeConfig& theirs);
+
 /// Diameter of the sphere around the grains of a kind, over that of the sphere of their volume.
 double width_of(const ShapeConfig& shape);
 /// Smallest and largest diameter of the spheres around grains of these sizes [m]; not empty.
@@ -31,7 +37,7 @@ Widths widths_of(const GrainConfig& grains, const std::vector<SizeClass>& sizes)
 /// the largest sphere of its kind.
 double longest_arm(const GrainConfig& grains);
 
-/// Inertia of grains of this shape against forces along their surface.
+/// Inertia of grains of this shape in contacts of the sphere that turns them most easily.
 InertiaInContacts inertia_of(const ShapeConfig& shape);
 
 /// Shapes of all kinds for kernels.

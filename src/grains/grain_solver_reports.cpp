@@ -55,6 +55,7 @@ Real GrainSolver::stable_step(const GrainState& grains) const {
                                                     .grains = grains.kin,
                                                     .sums = sums,
                                                     .kind = grains.kind,
+                                                    .id = grains.id,
                                                     .shapes = grains.shapes},
                             Kokkos::Min<Real>(of_pairs));
     const StableStepOfGrains<Laws> of_each{.laws = walls,
@@ -63,6 +64,7 @@ Real GrainSolver::stable_step(const GrainState& grains) const {
                                            .grains = grains.kin,
                                            .sums = sums,
                                            .kind = grains.kind,
+                                           .id = grains.id,
                                            .shapes = grains.shapes};
     if (grains.clump.size() > 0) {
       Kokkos::parallel_reduce(

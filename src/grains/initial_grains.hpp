@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/grains/clump.hpp"
+#include "src/grains/grains_case.hpp"
 
 namespace barchan {
 
@@ -23,6 +24,7 @@ struct InitialGrains {
   std::vector<Quaternion> q = {};
   std::vector<ClumpMotion> clump = {};
   std::vector<std::string> kind_names = {};  // from a file that has kinds
+  std::vector<ShapeConfig> shapes = {};      // of each kind, from a file that says them
   std::vector<std::string> heap_names = {};  // may be empty: a table has none
   std::int64_t last_id = 0;  // largest id of these grains and of those that have left
 

@@ -81,12 +81,31 @@ std::uint8_t as_kind(std::int64_t kind, const std::filesystem::path& file) {
                                        file.string(), kind, kMaxKinds - 1));
 }
 
-/// Wraps grains beyond a side that is periodic in the case that wrote them; here it may be none.
-void wrap_as_written(InitialGrains& grains, const Provenance& origin,
-                     const std::filesystem::path& file) {
+/// Takes what the case says that wrote grains: their shapes, and where a side is periodic that may
+/// be none here: grains beyond it are wrapped.
+void take_origin(InitialGrains& grains, const Provenance& origin,
+                 const std::filesystem::path& file) {
   if (origin.config.empty()) return;
   const Config written = config_as_written(origin.config, file);
-  if (written.grains) wrap(grains, written);
+  if (!written.grains) return;
+  wrap(grains, written);
+  for (const KindConfig& kind : all_kinds(*written.grains)) grains.shapes.push_back(kind.shape);
+}
+
+/// Reads the shapes of kinds from the spheres of their clumps.
+std::vector<ShapeConfig> read_shapes(const Hdf5File& file) {
+  if (!file.exists("spheres")) return {};
+  const auto kinds = file.read<std::int64_t>("spheres/kind");
+  const std::uint64_t n = kinds.size();
+  const std::vector<Vec3> centres = to_vectors(file.read<double>("spheres/centre", {n, 3}));
+  const auto radii = file.read<double>("spheres/radius", {n});
+  std::vector<ShapeConfig> shapes;
+  for (std::size_t s = 0; s < n; ++s) {
+    const std::size_t kind = as_kind(kinds[s], file.path());
+    if (shapes.size() <= kind) shapes.resize(kind + 1, {.shape = GrainShape::clump});
+    shapes[kind].spheres.push_back({centres[s], radii[s]});
+  }
+  return shapes;
 }
 
 InitialGrains read_last_frame(const Hdf5File& file) {
@@ -120,7 +139,8 @@ InitialGrains read_last_frame(const Hdf5File& file) {
   }
   if (file.has_attribute(frames.back().name, "last_id"))
     grains.last_id = file.attribute<std::int64_t>(frames.back().name, "last_id");
-  wrap_as_written(grains, read_provenance(file), file.path());
+  take_origin(grains, read_provenance(file), file.path());
+  if (grains.shapes.empty()) grains.shapes = read_shapes(file);
   return grains;
 }
 
@@ -163,7 +183,7 @@ InitialGrains read_restart(const std::filesystem::path& path) {
     grains.heap_names = lines_of(file.text("grains/heap_names"));
   }
   if (file.has("grains/clump")) take_clumps(file, grains);
-  wrap_as_written(grains, file.provenance(), path);
+  take_origin(grains, file.provenance(), path);
   return grains;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "src/base/errors.hpp"
@@ -149,6 +150,20 @@ std::string name_of_number(const std::string& name, const GrainConfig& config) {
   return kind_of_name(config, name) < 0 && number < names.size() ? names[number] : name;
 }
 
+/// Refuses grains of kinds with other shapes than those of the case. `ours`: index here of each of
+/// their kinds; empty: the same.
+void check_shapes_of_kinds(const InitialGrains& grains, const std::vector<int>& ours,
+                           const GrainConfig& config, const std::string& source) {
+  const std::set<std::uint8_t> used(grains.kind.begin(), grains.kind.end());
+  for (std::size_t kind = 0; kind < grains.shapes.size(); ++kind) {
+    if (!used.contains(static_cast<std::uint8_t>(kind)) && !(used.empty() && kind == 0)) continue;
+    const int here = kind < ours.size() ? std::max(ours[kind], 0) : static_cast<int>(kind);
+    if (static_cast<std::size_t>(here) >= names_of_kinds(config).size()) continue;
+    if (const std::string fault = unlike_shape(config, here, grains.shapes[kind]); !fault.empty())
+      throw InputError(fmt::format("{}: it must {}", source, fault));
+  }
+}
+
 }  // namespace
 
 void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::string& source) {
@@ -161,6 +176,7 @@ void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::str
   // index of each of their kinds here; without names these are in the case's order
   std::vector<int> ours;
   for (const std::string& name : theirs) ours.push_back(kind_of_name(config, name));
+  check_shapes_of_kinds(grains, ours, config, source);
   for (std::uint8_t& kind : grains.kind) {
     if (kind >= (theirs.empty() ? n_kinds : ours.size()))
       throw InputError(fmt::format("{}: it holds grains of more kinds than it names", source));

@@ -16,7 +16,7 @@ struct InitialFiles {
 };
 
 /// Gives the grains that come from `source` the kinds of the case; `source` has them in an order of
-/// its own. Throws InputError if the case does not have them all.
+/// its own. Throws InputError if the case does not have them all, with the shapes that they have.
 void take_kinds(InitialGrains& grains, const GrainConfig& config, const std::string& source);
 
 /// Refuses grains of sizes that do not suit the steps or the domain: InputError, which says that

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "tests/support/clumps.hpp"
 #include "tests/support/packing.hpp"
 
 namespace barchan {
@@ -60,6 +61,33 @@ TEST(StableStep, OfAGrainOnTheFloorIsWhereItsSlipBeginsToGrow) {
   for (const double tangential_damping : {1.0, 0.25}) {
     EXPECT_LT(slip_left(0.95, tangential_damping), 0.01);
     EXPECT_GT(slip_left(1.05, tangential_damping), 1);
+  }
+}
+
+/// Four spheres in a row that lie on the floor and are given a spin about their axis: slip in the
+/// end over that at first.
+Real slip_left_of_a_rod(Real ratio, double tangential_damping) {
+  Config config = soft_grains(tangential_damping);
+  config.grains->shape = {.shape = GrainShape::clump, .spheres = rod()};
+  const Real r = 1e-4 / std::cbrt(Real(4)), omega = 1e-6;
+  InitialGrains g;
+  add_turned(g, 2e-4, {0.005, r, 0.005}, {1, 0, 0, 0});
+  ClumpBench bench(config, g);
+  set_weight(bench.state, {0, -9.81, 0});
+  bench.advance(20000, 1e-6);
+  const auto clump = host_copy(bench.state.clump);
+  const int head = host_copy(bench.state.members.entry)(0);
+  clump(head).j.x += 0.4 * clump(head).m * r * r * omega;
+  Kokkos::deep_copy(bench.state.clump, clump);
+  bench.advance(600, ratio * bench.solver.stable_step(bench.state));
+  const GrainKinematics grain = bench.grain(1);
+  return std::abs(grain.u.z - r * grain.omega.x) / (r * omega);
+}
+
+TEST(StableStep, OfARodOnTheFloorIsWhereItsSlipBeginsToGrow) {
+  for (const double tangential_damping : {1.0, 0.25}) {
+    EXPECT_LT(slip_left_of_a_rod(0.95, tangential_damping), 0.01);
+    EXPECT_GT(slip_left_of_a_rod(1.05, tangential_damping), 1);
   }
 }
 
