@@ -8,11 +8,6 @@
 namespace barchan {
 namespace {
 
-/// Section of a kind, numbered from 0; a case without kinds has [grains].
-std::string section_of(const GrainConfig& grains, std::size_t kind) {
-  return grains.kinds.empty() ? "grains" : fmt::format("grains.kind.{}", kind + 1);
-}
-
 /// Checks that nothing is said of a clump where grains are spheres.
 void check_absent(const ShapeConfig& shape, const std::string& section, Findings& found) {
   const std::string of = section + ".shape", message = "must be absent unless shape = \"clump\"";
@@ -49,12 +44,12 @@ void check_shapes(const Config& c, Findings& found) {
                       "must be absent: every [[grains.kind]] has its own"))
     check_absent(grains.shape, "grains", found);
   for (std::size_t k = 0; k < kinds.size(); ++k)
-    check_shape(kinds[k].shape, section_of(grains, k), found);
+    check_shape(kinds[k].shape, section_of_kind(grains, k), found);
   if (found.all.size() > before || !has_clumps(grains)) return;
   const auto first =
       std::ranges::find_if(kinds, [](const KindConfig& kind) { return is_clump(kind.shape); });
   const std::string key =
-      section_of(grains, static_cast<std::size_t>(first - kinds.begin())) + ".shape";
+      section_of_kind(grains, static_cast<std::size_t>(first - kinds.begin())) + ".shape";
   found.error_if(c.fluid && c.coupling.scheme == CouplingScheme::resolved, {key, "coupling.scheme"},
                  "must be \"sphere\" with scheme = \"resolved\", whose markers lie on spheres");
 }

@@ -7,10 +7,12 @@
 #include <fstream>
 #include <set>
 
+#include "kernels/grains/contact_law.hpp"
 #include "kernels/grains/sphere.hpp"
 #include "src/case/grain_checks.hpp"
 #include "src/case/heaps.hpp"
 #include "src/case/resolved.hpp"
+#include "src/coupling/state_checks.hpp"
 #include "src/grains/inertia_in_contacts.hpp"
 #include "src/grains/kinds.hpp"
 #include "src/initial/initial_state.hpp"
@@ -151,6 +153,45 @@ TEST(ClumpsOfACase, ThoseWiderThanTheBoxOrHalfAPeriodAreRefused) {
   EXPECT_TRUE(said().empty()) << "spheres have room";
 }
 
+/// A run stops where a sphere goes kMaxDisplacement of its own radius in a step: a case is refused
+/// for its smallest sphere, here after a fall over a diameter.
+TEST(ClumpsOfACase, TheSmallestSphereLimitsTheStep) {
+  const auto said = [](Real radius, Real of_limit) {
+    Config c = clump_config({{{0, 0, 0}, 1}, {{1, 0, 0}, radius}});
+    c.grains->gravity = {0, -9.81, 0};
+    const Real speed = std::sqrt(2 * 9.81 * 2e-4);
+    c.time.grain_step = c.time.fluid_step = of_limit * kMaxDisplacement * 1e-3 * 1e-4 / speed;
+    return said_of_sizes(c, {{.diameter = 2e-4, .count = 10}}, "time.grain_step");
+  };
+  EXPECT_TRUE(said(1e-3, 0.99).empty());
+  EXPECT_TRUE(said(2e-3, 1.01).empty());
+  ASSERT_EQ(said(1e-3, 1.01).size(), 1u);
+  EXPECT_EQ(said(1e-3, 1.01)[0],
+            "must be at most 7.98e-07 s, or the smallest sphere of the grains, of radius 1e-07 m, "
+            "goes more than half its radius in it at 0.0626 m/s; leave out spheres as small as "
+            "this");
+}
+
+/// Among several ranks a clump may reach over a few columns of the search alone.
+TEST(ClumpsOfACase, TooLongForSeveralRanksNamesItsKey) {
+  GrainConfig grains;
+  grains.kinds.resize(2);
+  grains.kinds[1].shape = {.shape = GrainShape::clump, .spheres = rod()};
+  LongestArm arm = longest_arm(grains);
+  EXPECT_NEAR(arm.length, 3, 1e-9);
+  EXPECT_EQ(arm.key, "grains.kind.2.spheres");
+  arm.length *= 0.99e-4;
+  SearchColumns columns;
+  columns.inverse_width_x = columns.inverse_width_z = 1e4;
+  EXPECT_EQ(columns_of_arm(arm, columns), 3);
+  columns.inverse_width_x = 2e4;
+  EXPECT_THROW(columns_of_arm(arm, columns), InputError);
+  EXPECT_EQ(message_of([&] { columns_of_arm(arm, columns); }),
+            "grains.kind.2.spheres makes clumps with a sphere 0.000297 m from their centre, too "
+            "far for several ranks: at most 0.0002 m with spheres this small; take --ranks 1, or "
+            "rounder clumps");
+}
+
 /// Grains that have not gone through as_spheres() have no motion of clumps, whatever their kind.
 TEST(ClumpsOfACase, GrainsThatAreNoSpheresOfClumpsAreRefused) {
   Config c = clump_config(NamedClump::cube);
@@ -184,9 +225,20 @@ TEST(ClumpsOfACase, StableStepIsThatOfEachKind) {
   EXPECT_DOUBLE_EQ(apart.solver.stable_step(apart.state), step);
   grains.kind = {1, 0, 0};
   grains.q.assign(3, {1, 0, 0, 0});
-  grains.x[0].x = 2.19e-3 - 1e-4 - 1.99e-4 / 2 * width_of(c.grains->kinds[1].shape);
+  const Real overlap = 1e-6, reach = 1e-4 * width_of(c.grains->kinds[1].shape);
+  grains.x[0].x = 2.19e-3 - 1e-4 - reach + overlap;
   const ClumpBench beside(c, grains);
-  EXPECT_LT(beside.solver.stable_step(beside.state), 0.7 * step);
+  const Material& m = c.grains->material;
+  const Elastic elastic{.youngs_modulus = m.youngs_modulus, .poisson_ratio = m.poisson_ratio};
+  const HertzMindlin law =
+      HertzMindlin::from({.a = elastic, .b = elastic, .restitution = m.restitution});
+  const Real mass = beside.kinematics()(0).m, r = 1e-4 / std::cbrt(Real(4));
+  const ContactStiffness k = law(1e-4 * r / (1e-4 + r), mass / 2, overlap);
+  const Real slip = inertia_in_contacts(clump_shape(rod()))[0].slip;
+  EXPECT_LT(slip, 0.7 * kSlipInertia);
+  EXPECT_NEAR(
+      beside.solver.stable_step(beside.state) / stable_step(k.k_t, k.gamma_t, slip * mass / 2), 1,
+      1e-6);
 }
 
 /// By hand for spheres of radius 1 that touch in a row: a force across the row and the normal, at
@@ -446,9 +498,23 @@ TEST(ClumpsOfACase, GrainsOfAnotherShapeAreRefused) {
     EXPECT_EQ(told(same_by_table), "");
     EXPECT_EQ(told(kCube),
               must + "clumps \"cube\", as grains.clump says; it holds clumps \"sand\"");
-    EXPECT_EQ(told(clump + "spheres = [[0, 0, 0, 1], [1, 0, 0, 1]]\n"),
+    EXPECT_EQ(told(clump + "spheres = [[0, 0, 0, 1], [1.5, 0, 0, 1]]\n"),
               must + "clumps of 2 spheres, as grains.spheres says; it holds clumps \"sand\"");
     EXPECT_EQ(told(""), must + "spheres, as grains.shape says; it holds clumps \"sand\"");
+  }
+}
+
+/// Spheres that touch are those of the case, whatever roundings they have in the file.
+TEST(ClumpsOfACase, SpheresOfAFileAreThoseThatWroteIt) {
+  for (const std::string name : {"dimer", "tetrahedron", "cube", "sand"}) {
+    Config c = case_of("shape = \"clump\"\nclump = \"" + name + "\"\n");
+    c.initial.pour.reset();
+    InitialGrains grains;
+    add_grain(grains, 2e-4, {0.05, 1e-3, 0.02});
+    const ClumpBench bench(c, grains);
+    const TemporaryFolder folder;
+    OutputFiles(folder.path(), {}).write_grains(whole_grains(bench.state), 0, 0);
+    EXPECT_EQ(checked_grains(c, folder / "grains.h5").size(), 1u) << name;
   }
 }
 
