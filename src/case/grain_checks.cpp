@@ -155,23 +155,6 @@ void check_push(const Config& c, const Derived& derived, Findings& found) {
                    push);
 }
 
-/// Checks that the smallest sphere of a clump goes less than half its radius in a grain step,
-/// beyond which a run stops (state_checks.hpp). Its speed is that of impacts, or that after a fall
-/// over a diameter, v^2 = 2 g d.
-void check_way(const Config& c, const KindNumbers& kind, const std::string& who, Findings& found) {
-  if (kind.spheres == 1) return;
-  constexpr double most = 0.5;  // radii
-  const auto [gx, gy, gz] = c.grains->gravity;
-  const double fall = std::sqrt(2 * std::hypot(gx, gy, gz) * kind.d_mean);
-  const double speed = kind.impact_speed > 0 ? kind.impact_speed : fall;
-  found.error_if(true_grain_step(c.time) * speed > most * kind.r_least,
-                 {"time.grain_step", "grains.spheres", "grains.sizes"},
-                 "must be at most {:.3g} s, or the smallest sphere of {}, of radius {:.3g} m, goes "
-                 "more than half its radius in it at {:.3g} m/s; leave out spheres as small as "
-                 "this",
-                 most * kind.r_least / speed, who, kind.r_least, speed);
-}
-
 /// Warns of grains that rise, and of those that the flow will not move.
 void check_motion(const Config& c, const Derived& derived, Findings& found) {
   const GrainConfig& grains = *c.grains;
@@ -183,7 +166,7 @@ void check_motion(const Config& c, const Derived& derived, Findings& found) {
         kind.name.empty() ? "the grains" : fmt::format("those of \"{}\"", kind.name);
     found.warning_if(kind.density <= around, {"grains.density", "fluid.density"},
                      "is not above that of the fluid, {:.6g} kg/m3: {} float", around, who);
-    check_way(c, kind, who, found);
+    check_smallest_sphere(c, kind, who, found);
   }
   // Laminar flows get no warning: their beds are as a rule so deep that u* of the whole height says
   // little.

@@ -1,6 +1,7 @@
 #include "src/case/shape_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src/grains/clumps.hpp"
 #include "src/grains/kinds.hpp"
@@ -68,6 +69,21 @@ void check_clump_sizes(const Config& c, const std::vector<SizeClass>& sizes, Fin
   const double narrowest = *std::min_element(c.size.begin(), c.size.end());
   found.error_if(widest >= narrowest, {"domain.size", "grains.sizes", "grains.shape"},
                  "must be above {:.4g} m, the width of the largest clump", widest);
+}
+
+void check_smallest_sphere(const Config& c, const KindNumbers& kind, const std::string& who,
+                           Findings& found) {
+  if (kind.spheres == 1) return;
+  constexpr double most = 0.5;  // radii
+  const auto [gx, gy, gz] = c.grains->gravity;
+  const double fall = std::sqrt(2 * std::hypot(gx, gy, gz) * kind.d_mean);
+  const double speed = kind.impact_speed > 0 ? kind.impact_speed : fall;
+  found.error_if(true_grain_step(c.time) * speed > most * kind.r_least,
+                 {"time.grain_step", "grains.spheres", "grains.sizes"},
+                 "must be at most {:.3g} s, or the smallest sphere of {}, of radius {:.3g} m, goes "
+                 "more than half its radius in it at {:.3g} m/s; leave out spheres as small as "
+                 "this",
+                 most * kind.r_least / speed, who, kind.r_least, speed);
 }
 
 }  // namespace barchan

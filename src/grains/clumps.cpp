@@ -167,14 +167,14 @@ double least_radius(const ShapeConfig& shape) {
   return std::ranges::min(shape_of(shape).spheres, {}, &ClumpSphere::radius).radius;
 }
 
-LongestArm longest_arm(const GrainConfig& grains) {
+LongestArm longest_arm(const GrainConfig& grains, Real r_max) {
   LongestArm longest;
   const std::vector<KindConfig> kinds = all_kinds(grains);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const auto& spheres = shape_of(kinds[k].shape).spheres;
     const Real largest = std::ranges::max(spheres, {}, &ClumpSphere::radius).radius;
     for (const ClumpSphere& sphere : spheres) {
-      const Real length = norm(sphere.centre) / largest;
+      const Real length = r_max * norm(sphere.centre) / largest;
       if (length > longest.length) longest = {length, key_of_shape(grains, k)};
     }
   }

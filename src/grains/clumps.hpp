@@ -36,9 +36,9 @@ struct Widths {
 Widths widths_of(const GrainConfig& grains, const std::vector<SizeClass>& sizes);
 /// Radius of the smallest sphere of a grain, over the diameter of the sphere of its volume.
 double least_radius(const ShapeConfig& shape);
-/// Longest distance from the centre of a grain to that of one of its spheres, over the radius of
-/// the largest sphere of its kind.
-LongestArm longest_arm(const GrainConfig& grains);
+/// Longest distance from the centre of a grain to that of one of its spheres [m], if the largest
+/// sphere of each kind has the radius `r_max` [m].
+LongestArm longest_arm(const GrainConfig& grains, Real r_max);
 
 /// Inertia of grains of this shape in contacts of the sphere that turns them most easily.
 InertiaInContacts inertia_of(const ShapeConfig& shape);

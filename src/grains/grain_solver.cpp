@@ -45,13 +45,6 @@ GrainMotion motion(const GrainState& grains, Real dt, Real elapsed) {
           .slack = grains.list.slack};
 }
 
-/// Longest arm of clumps [m] whose largest sphere has this radius [m].
-LongestArm arm_of(const GrainConfig& grains, Real r_max) {
-  LongestArm arm = longest_arm(grains);
-  arm.length *= r_max;
-  return arm;
-}
-
 }  // namespace
 
 void add_wall(WallShapes& walls, const Plane& plane, int history) {
@@ -70,7 +63,7 @@ GrainSolver::GrainSolver(const GrainsCase& config, GrainState& grains, const Gra
       pair_laws_(laws_of_pairs(config.grains, kinds, config.film)),
       wall_laws_(laws_of_walls(config.grains, kinds, config.film)),
       list_(config, grains.r_max, grains.ranks, largest_reach(pair_laws_, grains.r_max / 2),
-            arm_of(config.grains, grains.r_max)),
+            longest_arm(config.grains, grains.r_max)),
       rolling_(make_rolling(config.grains, kinds)),
       on_bodies_(config, grains, !std::holds_alternative<NoRolling>(rolling_),
                  largest_reach(wall_laws_, grains.r_max)) {

@@ -172,26 +172,6 @@ TEST(ClumpsOfACase, TheSmallestSphereLimitsTheStep) {
             "this");
 }
 
-/// Among several ranks a clump may reach over a few columns of the search alone.
-TEST(ClumpsOfACase, TooLongForSeveralRanksNamesItsKey) {
-  GrainConfig grains;
-  grains.kinds.resize(2);
-  grains.kinds[1].shape = {.shape = GrainShape::clump, .spheres = rod()};
-  LongestArm arm = longest_arm(grains);
-  EXPECT_NEAR(arm.length, 3, 1e-9);
-  EXPECT_EQ(arm.key, "grains.kind.2.spheres");
-  arm.length *= 0.99e-4;
-  SearchColumns columns;
-  columns.inverse_width_x = columns.inverse_width_z = 1e4;
-  EXPECT_EQ(columns_of_arm(arm, columns), 3);
-  columns.inverse_width_x = 2e4;
-  EXPECT_THROW(columns_of_arm(arm, columns), InputError);
-  EXPECT_EQ(message_of([&] { columns_of_arm(arm, columns); }),
-            "grains.kind.2.spheres makes clumps with a sphere 0.000297 m from their centre, too "
-            "far for several ranks: at most 0.0002 m with spheres this small; take --ranks 1, or "
-            "rounder clumps");
-}
-
 /// Grains that have not gone through as_spheres() have no motion of clumps, whatever their kind.
 TEST(ClumpsOfACase, GrainsThatAreNoSpheresOfClumpsAreRefused) {
   Config c = clump_config(NamedClump::cube);
@@ -207,69 +187,6 @@ TEST(ClumpsOfACase, GrainsThatAreNoSpheresOfClumpsAreRefused) {
   std::swap(c.grains->kinds[1].shape, c.grains->shape);
   EXPECT_EQ(said(), why) << "spheres in a case that has clumps, too";
   EXPECT_NO_THROW(ClumpBench(c, grains));
-}
-
-/// Rods do not shorten the step of the spheres beside them, which turn less easily.
-TEST(ClumpsOfACase, StableStepIsThatOfEachKind) {
-  Config c = grain_config();
-  InitialGrains grains;
-  for (const Real x : {2e-3, 2.19e-3, 6e-3}) add_grain(grains, 2e-4, {x, 2e-3, 2e-3});
-  const GrainBench spheres(c, grains);
-  c.grains->kinds.resize(2);
-  c.grains->kinds[0].name = "sphere", c.grains->kinds[1].name = "rod";
-  c.grains->kinds[1].shape = {.shape = GrainShape::clump, .spheres = rod()};
-  grains.kind = {0, 0, 1};
-  const ClumpBench apart(c, grains);
-  const Real step = spheres.solver.stable_step(spheres.state);
-  ASSERT_TRUE(std::isfinite(step));
-  EXPECT_DOUBLE_EQ(apart.solver.stable_step(apart.state), step);
-  grains.kind = {1, 0, 0};
-  grains.q.assign(3, {1, 0, 0, 0});
-  const Real overlap = 1e-6, reach = 1e-4 * width_of(c.grains->kinds[1].shape);
-  grains.x[0].x = 2.19e-3 - 1e-4 - reach + overlap;
-  const ClumpBench beside(c, grains);
-  const Material& m = c.grains->material;
-  const Elastic elastic{.youngs_modulus = m.youngs_modulus, .poisson_ratio = m.poisson_ratio};
-  const HertzMindlin law =
-      HertzMindlin::from({.a = elastic, .b = elastic, .restitution = m.restitution});
-  const Real mass = beside.kinematics()(0).m, r = 1e-4 / std::cbrt(Real(4));
-  const ContactStiffness k = law(1e-4 * r / (1e-4 + r), mass / 2, overlap);
-  const Real slip = inertia_in_contacts(clump_shape(rod()))[0].slip;
-  EXPECT_LT(slip, 0.7 * kSlipInertia);
-  EXPECT_NEAR(
-      beside.solver.stable_step(beside.state) / stable_step(k.k_t, k.gamma_t, slip * mass / 2), 1,
-      1e-6);
-}
-
-/// By hand for spheres of radius 1 that touch in a row: a force across the row and the normal, at
-/// the angle of cosine c from the axis on a sphere at a, has (1 - c^2)/I_1 + (a + c)^2/I_2, largest
-/// at c = a / (I_2/I_1 - 1), with I_1 = 2/5 and I_2 = 7/5 for two, 27/5 for four.
-TEST(ClumpsOfACase, InertiaInContactsIsThatOfTheWorstPoint) {
-  const auto near = [](const InertiaInContacts& found, Real compliance) {
-    EXPECT_NEAR(found.spin * compliance, 1.005, 0.005);  // from points: never below the least
-    EXPECT_DOUBLE_EQ(found.slip, found.spin / (1 + found.spin));
-  };
-  const auto two = inertia_in_contacts(clump_shape({{{0, 0, 0}, 1}, {{2, 0, 0}, 1}}));
-  ASSERT_EQ(two.size(), 2u);
-  for (const InertiaInContacts& sphere : two) near(sphere, 3.5);
-  const auto four = inertia_in_contacts(clump_shape(rod()));
-  ASSERT_EQ(four.size(), 4u);
-  near(four[0], 4.3), near(four[1], 2.7), near(four[2], 2.7), near(four[3], 4.3);
-  near(inertia_of({.shape = GrainShape::clump, .spheres = rod()}), 4.3);
-  EXPECT_EQ(inertia_of({}).spin, kSpinInertia);
-  EXPECT_EQ(inertia_of({}).slip, kSlipInertia);
-}
-
-/// The chosen step of a chain is near that of spheres, whose spin is no slower.
-TEST(ClumpsOfACase, ChosenStepOfAChainIsNearThatOfSpheres) {
-  const auto step = [](const std::string& shape) {
-    return case_of("youngs_modulus = 2e4\n" + shape).time.grain_step;
-  };
-  const Real chain = step(
-      "shape = \"clump\"\nspheres = [[0, 0, 0, 1], [2, 0, 0, 1], [4, 0, 0, 1], [6, 0, 0, 1], "
-      "[8, 0, 0, 1], [10, 0, 0, 1]]\n");
-  EXPECT_LT(chain, step(""));
-  EXPECT_GT(chain, step("") / 2);
 }
 
 /// Beds that are timed for an estimate: no sphere of them lies below the floor by its centre.
@@ -465,81 +382,6 @@ TEST(ClumpsOfACase, TheirSpheresFollowFromTheFile) {
     EXPECT_NEAR(entries(e).r, d[g] * radii[s], 1e-18);
     EXPECT_EQ(kinds[s], kind[g]);
   }
-}
-
-/// Orientations are those of the shape that a file holds, so another shape is refused.
-TEST(ClumpsOfACase, GrainsOfAnotherShapeAreRefused) {
-  const std::string clump = "shape = \"clump\"\n", sand_lines = clump + "clump = \"sand\"\n";
-  const Config sand = case_of(sand_lines);
-  InitialGrains grains;
-  add_grain(grains, 2e-4, {0.05, 1e-3, 0.02});
-  const ClumpBench bench(sand, grains);
-  const TemporaryFolder with_case, without;
-  const Provenance origin{.config = to_toml(sand)};
-  OutputFiles(with_case.path(), origin).write_grains(whole_grains(bench.state), 0, 0);
-  OutputFiles(without.path(), {}).write_grains(whole_grains(bench.state), 0, 0);
-  CheckpointWriter restart(with_case.path(), 5, origin);
-  const auto rows = std::make_pair(0, bench.state.n);
-  restart.array("grains/id", Kokkos::subview(bench.state.id, rows));
-  restart.array("grains/kin", Kokkos::subview(bench.state.kin, rows));
-  restart.array("grains/clump", Kokkos::subview(bench.state.clump, rows));
-  std::string same_by_table = clump + "spheres = [";
-  for (const auto& [c, r] : spheres_of(sand.grains->shape))
-    same_by_table += fmt::format("[{}, {}, {}, {}], ", 3 * c.x, 3 * c.y, 3 * c.z, 3 * r);
-  same_by_table += "]\n";
-  for (const auto& file : {with_case / "grains.h5", without / "grains.h5", restart.commit(1)}) {
-    const auto told = [&](const std::string& lines) {
-      Config c = case_of(lines);
-      c.initial.pour.reset();
-      return message_of([&] { checked_grains(c, file); });
-    };
-    const std::string must = file.string() + ": it must hold ";
-    EXPECT_EQ(told(sand_lines), "");
-    EXPECT_EQ(told(same_by_table), "");
-    EXPECT_EQ(told(kCube),
-              must + "clumps \"cube\", as grains.clump says; it holds clumps \"sand\"");
-    EXPECT_EQ(told(clump + "spheres = [[0, 0, 0, 1], [1.5, 0, 0, 1]]\n"),
-              must + "clumps of 2 spheres, as grains.spheres says; it holds clumps \"sand\"");
-    EXPECT_EQ(told(""), must + "spheres, as grains.shape says; it holds clumps \"sand\"");
-  }
-}
-
-/// Spheres that touch are those of the case, whatever roundings they have in the file.
-TEST(ClumpsOfACase, SpheresOfAFileAreThoseThatWroteIt) {
-  for (const std::string name : {"dimer", "tetrahedron", "cube", "sand"}) {
-    Config c = case_of("shape = \"clump\"\nclump = \"" + name + "\"\n");
-    c.initial.pour.reset();
-    InitialGrains grains;
-    add_grain(grains, 2e-4, {0.05, 1e-3, 0.02});
-    const ClumpBench bench(c, grains);
-    const TemporaryFolder folder;
-    OutputFiles(folder.path(), {}).write_grains(whole_grains(bench.state), 0, 0);
-    EXPECT_EQ(checked_grains(c, folder / "grains.h5").size(), 1u) << name;
-  }
-}
-
-/// Kinds are compared by name; a case that another starts from is refused before it runs.
-TEST(ClumpsOfACase, KindsOfAnotherShapeAreRefused) {
-  const TemporaryFolder folder;
-  const std::string a = "[[grains.kind]]\nname = \"a\"\n", b = "[[grains.kind]]\nname = \"b\"\n",
-                    sizes = "sizes = [[0.3e-3, 1]]\n";
-  std::ofstream(folder / "heap.toml") << grain_case(a + b + kCube + sizes);
-  const auto starts = [&](const std::string& kinds) {
-    return lines_of([&] {
-      load_case_text(
-          "[time]\nend = 1.0\n[domain]\nsize = [0.1, 0.025, 0.04]\n[initial]\n"
-          "grains = \"heap.toml\"\n[grains]\n" +
-              kinds,
-          folder / "case.toml");
-    });
-  };
-  EXPECT_EQ(starts(b + kCube + a), Lines{});
-  const Lines lines = starts(b + a + kCube);
-  ASSERT_EQ(lines.size(), 2u);
-  EXPECT_TRUE(contains(lines[0],
-                       "must hold clumps \"cube\" of the kind \"a\", as "
-                       "grains.kind.2.clump says; it holds spheres"))
-      << lines[0];
 }
 
 }  // namespace
