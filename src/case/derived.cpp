@@ -74,6 +74,7 @@ KindNumbers derive_kind(const Config& config, const KindConfig& kind,
                 .youngs_modulus = kind.material.youngs_modulus,
                 .d_min = std::ranges::min(sizes, {}, &SizeClass::diameter).diameter,
                 .d_mean = mean_diameter(sizes)};
+  n.r_least = least_radius(kind.shape) * n.d_min;
   n.rayleigh_min = rayleigh_time(n.d_min, kind.density, kind.material);
   n.rayleigh_mean = rayleigh_time(n.d_mean, kind.density, kind.material);
   const AmbientConfig liquid =

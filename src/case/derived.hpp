@@ -73,6 +73,7 @@ struct KindNumbers {
   double density = 0;                          // [kg/m^3]
   double youngs_modulus = 0;                   // [Pa]
   double d_min = 0, d_mean = 0;                // smallest and mean diameter [m]; mean by number
+  double r_least = 0;                          // [m], of a sphere of the smallest grain
   double rayleigh_min = 0, rayleigh_mean = 0;  // [s], of the smallest and the mean grain
   double at_rest = 0;                          // overlap over d under kLayersAtRest, mean grain
   double impact_speed = 0;                     // [m/s] of the fastest grains; 0: not known

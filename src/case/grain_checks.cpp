@@ -166,6 +166,7 @@ void check_motion(const Config& c, const Derived& derived, Findings& found) {
         kind.name.empty() ? "the grains" : fmt::format("those of \"{}\"", kind.name);
     found.warning_if(kind.density <= around, {"grains.density", "fluid.density"},
                      "is not above that of the fluid, {:.6g} kg/m3: {} float", around, who);
+    check_smallest_sphere(c, kind, who, found);
   }
   // Laminar flows get no warning: their beds are as a rule so deep that u* of the whole height says
   // little.

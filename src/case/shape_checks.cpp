@@ -1,17 +1,13 @@
 #include "src/case/shape_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src/grains/clumps.hpp"
 #include "src/grains/kinds.hpp"
 
 namespace barchan {
 namespace {
-
-/// Section of a kind, numbered from 0; a case without kinds has [grains].
-std::string section_of(const GrainConfig& grains, std::size_t kind) {
-  return grains.kinds.empty() ? "grains" : fmt::format("grains.kind.{}", kind + 1);
-}
 
 /// Checks that nothing is said of a clump where grains are spheres.
 void check_absent(const ShapeConfig& shape, const std::string& section, Findings& found) {
@@ -49,12 +45,12 @@ void check_shapes(const Config& c, Findings& found) {
                       "must be absent: every [[grains.kind]] has its own"))
     check_absent(grains.shape, "grains", found);
   for (std::size_t k = 0; k < kinds.size(); ++k)
-    check_shape(kinds[k].shape, section_of(grains, k), found);
+    check_shape(kinds[k].shape, section_of_kind(grains, k), found);
   if (found.all.size() > before || !has_clumps(grains)) return;
   const auto first =
       std::ranges::find_if(kinds, [](const KindConfig& kind) { return is_clump(kind.shape); });
   const std::string key =
-      section_of(grains, static_cast<std::size_t>(first - kinds.begin())) + ".shape";
+      section_of_kind(grains, static_cast<std::size_t>(first - kinds.begin())) + ".shape";
   found.error_if(c.fluid && c.coupling.scheme == CouplingScheme::resolved, {key, "coupling.scheme"},
                  "must be \"sphere\" with scheme = \"resolved\", whose markers lie on spheres");
 }
@@ -73,6 +69,21 @@ void check_clump_sizes(const Config& c, const std::vector<SizeClass>& sizes, Fin
   const double narrowest = *std::min_element(c.size.begin(), c.size.end());
   found.error_if(widest >= narrowest, {"domain.size", "grains.sizes", "grains.shape"},
                  "must be above {:.4g} m, the width of the largest clump", widest);
+}
+
+void check_smallest_sphere(const Config& c, const KindNumbers& kind, const std::string& who,
+                           Findings& found) {
+  if (kind.spheres == 1) return;
+  constexpr double most = 0.5;  // radii
+  const auto [gx, gy, gz] = c.grains->gravity;
+  const double fall = std::sqrt(2 * std::hypot(gx, gy, gz) * kind.d_mean);
+  const double speed = kind.impact_speed > 0 ? kind.impact_speed : fall;
+  found.error_if(true_grain_step(c.time) * speed > most * kind.r_least,
+                 {"time.grain_step", "grains.spheres", "grains.sizes"},
+                 "must be at most {:.3g} s, or the smallest sphere of {}, of radius {:.3g} m, goes "
+                 "more than half its radius in it at {:.3g} m/s; leave out spheres as small as "
+                 "this",
+                 most * kind.r_least / speed, who, kind.r_least, speed);
 }
 
 }  // namespace barchan

@@ -120,14 +120,15 @@ OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& col
   return {ordered, entry};
 }
 
-int columns_of_arm(Real arm, const SearchColumns& columns) {
+int columns_of_arm(const LongestArm& arm, const SearchColumns& columns) {
   const Real narrowest = 1 / std::max(columns.inverse_width_x, columns.inverse_width_z);
-  const Real crossed = std::ceil(arm / narrowest);
+  const Real crossed = std::ceil(arm.length / narrowest);
   if (crossed > kMostArms) {
-    throw std::runtime_error(
-        fmt::format("a clump reaches {:.3g} m from its centre, too far for several ranks: at most "
-                    "{:.3g} m with spheres this small",
-                    arm, kMostArms * narrowest));
+    throw InputError(
+        fmt::format("{} makes clumps with a sphere {:.3g} m from their centre, too far for several "
+                    "ranks: at most {:.3g} m with spheres this small; take --ranks 1, or rounder "
+                    "clumps",
+                    arm.key, arm.length, kMostArms * narrowest));
   }
   return static_cast<int>(crossed);
 }

@@ -2,6 +2,8 @@
 // columns belong to other ranks.
 #pragma once
 
+#include <string>
+
 #include "kernels/grains/search_columns.hpp"
 #include "src/grains/grain_state.hpp"
 
@@ -26,7 +28,12 @@ struct OrderOfPlaces {
 /// Order that all ranks agree on: equal keys come in the order of the ids.
 OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& columns);
 
-/// Columns that an arm [m] may cross. Throws std::runtime_error beyond kMostArms.
-int columns_of_arm(Real arm, const SearchColumns& columns);
+/// Longest way from the centre of a clump to that of a sphere of it, and the key that says so.
+struct LongestArm {
+  Real length = 0;
+  std::string key{};
+};
+/// Columns that an arm [m] may cross. Throws InputError beyond kMostArms.
+int columns_of_arm(const LongestArm& arm, const SearchColumns& columns);
 
 }  // namespace barchan

@@ -84,6 +84,13 @@ std::string words_of(const ShapeConfig& shape) {
   return fmt::format("clumps of {} spheres", spheres_of(shape).size());
 }
 
+/// Key that says the shape of a kind.
+std::string key_of_shape(const GrainConfig& grains, std::size_t kind) {
+  const ShapeConfig shape = all_kinds(grains)[kind].shape;
+  const char* key = !is_clump(shape) ? "shape" : shape.clump ? "clump" : "spheres";
+  return fmt::format("{}.{}", section_of_kind(grains, kind), key);
+}
+
 /// Random rotation, all of them alike: Shoemake, Graphics Gems III, 124 (1992).
 Quaternion random_orientation(std::uint64_t seed, std::int64_t number) {
   const auto count = 3 * static_cast<std::uint64_t>(number);
@@ -137,12 +144,10 @@ int sphere_count(const ShapeConfig& shape) {
 std::string unlike_shape(const GrainConfig& grains, int kind, const ShapeConfig& theirs) {
   const KindConfig ours = all_kinds(grains)[static_cast<std::size_t>(kind)];
   if (same_shape(ours.shape, theirs)) return {};
-  const std::string section =
-      grains.kinds.empty() ? "grains" : fmt::format("grains.kind.{}", kind + 1);
-  const std::string key = !is_clump(ours.shape) ? "shape" : ours.shape.clump ? "clump" : "spheres";
   const std::string of = ours.name.empty() ? "" : fmt::format(" of the kind \"{}\"", ours.name);
   const std::string held = words_of(theirs), said = words_of(ours.shape);
-  return fmt::format("hold {}{}, as {}.{} says; it holds {}", said, of, section, key,
+  return fmt::format("hold {}{}, as {} says; it holds {}", said, of,
+                     key_of_shape(grains, static_cast<std::size_t>(kind)),
                      held == said ? "others" : held);
 }
 
@@ -158,13 +163,20 @@ Widths widths_of(const GrainConfig& grains, const std::vector<SizeClass>& sizes)
   return all;
 }
 
-double longest_arm(const GrainConfig& grains) {
-  double longest = 0;
-  for (const KindConfig& kind : all_kinds(grains)) {
-    const auto& spheres = shape_of(kind.shape).spheres;
+double least_radius(const ShapeConfig& shape) {
+  return std::ranges::min(shape_of(shape).spheres, {}, &ClumpSphere::radius).radius;
+}
+
+LongestArm longest_arm(const GrainConfig& grains, Real r_max) {
+  LongestArm longest;
+  const std::vector<KindConfig> kinds = all_kinds(grains);
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const auto& spheres = shape_of(kinds[k].shape).spheres;
     const Real largest = std::ranges::max(spheres, {}, &ClumpSphere::radius).radius;
-    for (const ClumpSphere& sphere : spheres)
-      longest = std::max<double>(longest, norm(sphere.centre) / largest);
+    for (const ClumpSphere& sphere : spheres) {
+      const Real length = r_max * norm(sphere.centre) / largest;
+      if (length > longest.length) longest = {length, key_of_shape(grains, k)};
+    }
   }
   return longest;
 }

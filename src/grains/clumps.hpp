@@ -6,6 +6,7 @@
 
 #include "kernels/grains/clump_motion.hpp"
 #include "kernels/grains/step_limit.hpp"
+#include "src/grains/clump_members.hpp"
 #include "src/grains/clump_shape.hpp"
 #include "src/grains/grain_state.hpp"
 #include "src/grains/grains_case.hpp"
@@ -33,9 +34,11 @@ struct Widths {
   double least = 0, most = 0;
 };
 Widths widths_of(const GrainConfig& grains, const std::vector<SizeClass>& sizes);
-/// Longest distance from the centre of a grain to that of one of its spheres, over the radius of
-/// the largest sphere of its kind.
-double longest_arm(const GrainConfig& grains);
+/// Radius of the smallest sphere of a grain, over the diameter of the sphere of its volume.
+double least_radius(const ShapeConfig& shape);
+/// Longest distance from the centre of a grain to that of one of its spheres [m], if the largest
+/// sphere of each kind has the radius `r_max` [m].
+LongestArm longest_arm(const GrainConfig& grains, Real r_max);
 
 /// Inertia of grains of this shape in contacts of the sphere that turns them most easily.
 InertiaInContacts inertia_of(const ShapeConfig& shape);

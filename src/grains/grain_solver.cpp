@@ -63,7 +63,7 @@ GrainSolver::GrainSolver(const GrainsCase& config, GrainState& grains, const Gra
       pair_laws_(laws_of_pairs(config.grains, kinds, config.film)),
       wall_laws_(laws_of_walls(config.grains, kinds, config.film)),
       list_(config, grains.r_max, grains.ranks, largest_reach(pair_laws_, grains.r_max / 2),
-            longest_arm(config.grains) * grains.r_max),
+            longest_arm(config.grains, grains.r_max)),
       rolling_(make_rolling(config.grains, kinds)),
       on_bodies_(config, grains, !std::holds_alternative<NoRolling>(rolling_),
                  largest_reach(wall_laws_, grains.r_max)) {

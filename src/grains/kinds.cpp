@@ -28,6 +28,10 @@ std::vector<SizeClass> poured_sizes(const GrainConfig& grains) {
   return sizes;
 }
 
+std::string section_of_kind(const GrainConfig& grains, std::size_t kind) {
+  return grains.kinds.empty() ? "grains" : fmt::format("grains.kind.{}", kind + 1);
+}
+
 int kind_of_name(const GrainConfig& grains, std::string_view name) {
   const std::vector<std::string> names = names_of_kinds(grains);
   const auto at = std::ranges::find(names, name);

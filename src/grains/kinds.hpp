@@ -15,6 +15,9 @@ std::vector<KindConfig> all_kinds(const GrainConfig& grains);
 /// Sizes of the grains to pour: those of all kinds, each with its kind.
 std::vector<SizeClass> poured_sizes(const GrainConfig& grains);
 
+/// Section of a kind of all_kinds, for messages: "grains" or "grains.kind.2", counted from 1.
+std::string section_of_kind(const GrainConfig& grains, std::size_t kind);
+
 /// Index of a kind in all_kinds, by its name; -1: there is none.
 int kind_of_name(const GrainConfig& grains, std::string_view name);
 

@@ -10,7 +10,6 @@
 
 #include "src/base/errors.hpp"
 #include "src/base/stopwatch.hpp"
-#include "src/grains/clump_members.hpp"
 #include "src/grains/grain_arrays.hpp"
 #include "src/grains/list_memory.hpp"
 #include "src/parallel/communicator.hpp"
@@ -35,7 +34,7 @@ int column_count(Real extent, Real cutoff, bool periodic, const char* axis) {
 }  // namespace
 
 NeighborList::NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks, Real reach,
-                           Real longest_arm)
+                           const LongestArm& longest_arm)
     : skins_(config, r_max, reach),
       lx_(config.size[0]),
       leaves_x_(grains_leave(config.grains)),

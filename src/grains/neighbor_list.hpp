@@ -8,6 +8,7 @@
 #include "kernels/grains/grain_sums.hpp"
 #include "kernels/grains/neighbor_search.hpp"
 #include "src/base/scratch_memory.hpp"
+#include "src/grains/clump_members.hpp"
 #include "src/grains/ghost_grains.hpp"
 #include "src/grains/grain_migration.hpp"
 #include "src/grains/grain_partition.hpp"
@@ -37,7 +38,7 @@ class NeighborList {
   /// Makes an empty list. `reach`: of the contact law between two surfaces; `longest_arm`: from the
   /// centre of a clump to that of its farthest sphere [m].
   NeighborList(const GrainsCase& config, Real r_max, MPI_Comm ranks = MPI_COMM_SELF, Real reach = 0,
-               Real longest_arm = 0);
+               const LongestArm& longest_arm = {});
 
   /// Sorts, searches, carries the history over. `drop` removes grains that leave. The first rebuild
   /// throws std::logic_error where clumps have not come as their spheres, by as_spheres().

@@ -64,8 +64,8 @@ TEST(StableStep, OfAGrainOnTheFloorIsWhereItsSlipBeginsToGrow) {
   }
 }
 
-/// Four spheres in a row that lie on the floor and are given a spin about their axis: slip in the
-/// end over that at first.
+/// Four spheres in a row that lie on the floor and are given a spin about their axis: slip after
+/// 100 steps over that at first. Later friction ends what grows.
 Real slip_left_of_a_rod(Real ratio, double tangential_damping) {
   Config config = soft_grains(tangential_damping);
   config.grains->shape = {.shape = GrainShape::clump, .spheres = rod()};
@@ -79,7 +79,7 @@ Real slip_left_of_a_rod(Real ratio, double tangential_damping) {
   const int head = host_copy(bench.state.members.entry)(0);
   clump(head).j.x += 0.4 * clump(head).m * r * r * omega;
   Kokkos::deep_copy(bench.state.clump, clump);
-  bench.advance(600, ratio * bench.solver.stable_step(bench.state));
+  bench.advance(100, ratio * bench.solver.stable_step(bench.state));
   const GrainKinematics grain = bench.grain(1);
   return std::abs(grain.u.z - r * grain.omega.x) / (r * omega);
 }

@@ -7,10 +7,12 @@
 #include <fstream>
 #include <set>
 
+#include "kernels/grains/contact_law.hpp"
 #include "kernels/grains/sphere.hpp"
 #include "src/case/grain_checks.hpp"
 #include "src/case/heaps.hpp"
 #include "src/case/resolved.hpp"
+#include "src/coupling/state_checks.hpp"
 #include "src/grains/inertia_in_contacts.hpp"
 #include "src/grains/kinds.hpp"
 #include "src/initial/initial_state.hpp"
@@ -154,6 +156,25 @@ TEST(ClumpsOfACase, ThoseWiderThanTheBoxOrHalfAPeriodAreRefused) {
   EXPECT_TRUE(said().empty()) << "spheres have room";
 }
 
+/// A run stops where a sphere goes kMaxDisplacement of its own radius in a step: a case is refused
+/// for its smallest sphere, here after a fall over a diameter.
+TEST(ClumpsOfACase, TheSmallestSphereLimitsTheStep) {
+  const auto said = [](Real radius, Real of_limit) {
+    Config c = clump_config({{{0, 0, 0}, 1}, {{1, 0, 0}, radius}});
+    c.grains->gravity = {0, -9.81, 0};
+    const Real speed = std::sqrt(2 * 9.81 * 2e-4);
+    c.time.grain_step = c.time.fluid_step = of_limit * kMaxDisplacement * 1e-3 * 1e-4 / speed;
+    return said_of_sizes(c, {{.diameter = 2e-4, .count = 10}}, "time.grain_step");
+  };
+  EXPECT_TRUE(said(1e-3, 0.99).empty());
+  EXPECT_TRUE(said(2e-3, 1.01).empty());
+  ASSERT_EQ(said(1e-3, 1.01).size(), 1u);
+  EXPECT_EQ(said(1e-3, 1.01)[0],
+            "must be at most 7.98e-07 s, or the smallest sphere of the grains, of radius 1e-07 m, "
+            "goes more than half its radius in it at 0.0626 m/s; leave out spheres as small as "
+            "this");
+}
+
 /// Grains that have not gone through as_spheres() have no motion of clumps, whatever their kind.
 TEST(ClumpsOfACase, GrainsThatAreNoSpheresOfClumpsAreRefused) {
   Config c = clump_config(NamedClump::cube);
@@ -169,58 +190,6 @@ TEST(ClumpsOfACase, GrainsThatAreNoSpheresOfClumpsAreRefused) {
   std::swap(c.grains->kinds[1].shape, c.grains->shape);
   EXPECT_EQ(said(), why) << "spheres in a case that has clumps, too";
   EXPECT_NO_THROW(ClumpBench(c, grains));
-}
-
-/// Rods do not shorten the step of the spheres beside them, which turn less easily.
-TEST(ClumpsOfACase, StableStepIsThatOfEachKind) {
-  Config c = grain_config();
-  InitialGrains grains;
-  for (const Real x : {2e-3, 2.19e-3, 6e-3}) add_grain(grains, 2e-4, {x, 2e-3, 2e-3});
-  const GrainBench spheres(c, grains);
-  c.grains->kinds.resize(2);
-  c.grains->kinds[0].name = "sphere", c.grains->kinds[1].name = "rod";
-  c.grains->kinds[1].shape = {.shape = GrainShape::clump, .spheres = rod()};
-  grains.kind = {0, 0, 1};
-  const ClumpBench apart(c, grains);
-  const Real step = spheres.solver.stable_step(spheres.state);
-  ASSERT_TRUE(std::isfinite(step));
-  EXPECT_DOUBLE_EQ(apart.solver.stable_step(apart.state), step);
-  grains.kind = {1, 0, 0};
-  grains.q.assign(3, {1, 0, 0, 0});
-  grains.x[0].x = 2.19e-3 - 1e-4 - 1.99e-4 / 2 * width_of(c.grains->kinds[1].shape);
-  const ClumpBench beside(c, grains);
-  EXPECT_LT(beside.solver.stable_step(beside.state), 0.7 * step);
-}
-
-/// By hand for spheres of radius 1 that touch in a row: a force across the row and the normal, at
-/// the angle of cosine c from the axis on a sphere at a, has (1 - c^2)/I_1 + (a + c)^2/I_2, largest
-/// at c = a / (I_2/I_1 - 1), with I_1 = 2/5 and I_2 = 7/5 for two, 27/5 for four.
-TEST(ClumpsOfACase, InertiaInContactsIsThatOfTheWorstPoint) {
-  const auto near = [](const InertiaInContacts& found, Real compliance) {
-    EXPECT_NEAR(found.spin * compliance, 1.005, 0.005);  // from points: never below the least
-    EXPECT_DOUBLE_EQ(found.slip, found.spin / (1 + found.spin));
-  };
-  const auto two = inertia_in_contacts(clump_shape({{{0, 0, 0}, 1}, {{2, 0, 0}, 1}}));
-  ASSERT_EQ(two.size(), 2u);
-  for (const InertiaInContacts& sphere : two) near(sphere, 3.5);
-  const auto four = inertia_in_contacts(clump_shape(rod()));
-  ASSERT_EQ(four.size(), 4u);
-  near(four[0], 4.3), near(four[1], 2.7), near(four[2], 2.7), near(four[3], 4.3);
-  near(inertia_of({.shape = GrainShape::clump, .spheres = rod()}), 4.3);
-  EXPECT_EQ(inertia_of({}).spin, kSpinInertia);
-  EXPECT_EQ(inertia_of({}).slip, kSlipInertia);
-}
-
-/// The chosen step of a chain is near that of spheres, whose spin is no slower.
-TEST(ClumpsOfACase, ChosenStepOfAChainIsNearThatOfSpheres) {
-  const auto step = [](const std::string& shape) {
-    return case_of("youngs_modulus = 2e4\n" + shape).time.grain_step;
-  };
-  const Real chain = step(
-      "shape = \"clump\"\nspheres = [[0, 0, 0, 1], [2, 0, 0, 1], [4, 0, 0, 1], [6, 0, 0, 1], "
-      "[8, 0, 0, 1], [10, 0, 0, 1]]\n");
-  EXPECT_LT(chain, step(""));
-  EXPECT_GT(chain, step("") / 2);
 }
 
 /// Beds that are timed for an estimate: no sphere of them lies below the floor by its centre.
@@ -416,67 +385,6 @@ TEST(ClumpsOfACase, TheirSpheresFollowFromTheFile) {
     EXPECT_NEAR(entries(e).r, d[g] * radii[s], 1e-18);
     EXPECT_EQ(kinds[s], kind[g]);
   }
-}
-
-/// Orientations are those of the shape that a file holds, so another shape is refused.
-TEST(ClumpsOfACase, GrainsOfAnotherShapeAreRefused) {
-  const std::string clump = "shape = \"clump\"\n", sand_lines = clump + "clump = \"sand\"\n";
-  const Config sand = case_of(sand_lines);
-  InitialGrains grains;
-  add_grain(grains, 2e-4, {0.05, 1e-3, 0.02});
-  const ClumpBench bench(sand, grains);
-  const TemporaryFolder with_case, without;
-  const Provenance origin{.config = to_toml(sand)};
-  OutputFiles(with_case.path(), origin).write_grains(whole_grains(bench.state), 0, 0);
-  OutputFiles(without.path(), {}).write_grains(whole_grains(bench.state), 0, 0);
-  CheckpointWriter restart(with_case.path(), 5, origin);
-  const auto rows = std::make_pair(0, bench.state.n);
-  restart.array("grains/id", Kokkos::subview(bench.state.id, rows));
-  restart.array("grains/kin", Kokkos::subview(bench.state.kin, rows));
-  restart.array("grains/clump", Kokkos::subview(bench.state.clump, rows));
-  std::string same_by_table = clump + "spheres = [";
-  for (const auto& [c, r] : spheres_of(sand.grains->shape))
-    same_by_table += fmt::format("[{}, {}, {}, {}], ", 3 * c.x, 3 * c.y, 3 * c.z, 3 * r);
-  same_by_table += "]\n";
-  for (const auto& file : {with_case / "grains.h5", without / "grains.h5", restart.commit(1)}) {
-    const auto told = [&](const std::string& lines) {
-      Config c = case_of(lines);
-      c.initial.pour.reset();
-      return message_of([&] { checked_grains(c, file); });
-    };
-    const std::string must = file.string() + ": it must hold ";
-    EXPECT_EQ(told(sand_lines), "");
-    EXPECT_EQ(told(same_by_table), "");
-    EXPECT_EQ(told(kCube),
-              must + "clumps \"cube\", as grains.clump says; it holds clumps \"sand\"");
-    EXPECT_EQ(told(clump + "spheres = [[0, 0, 0, 1], [1, 0, 0, 1]]\n"),
-              must + "clumps of 2 spheres, as grains.spheres says; it holds clumps \"sand\"");
-    EXPECT_EQ(told(""), must + "spheres, as grains.shape says; it holds clumps \"sand\"");
-  }
-}
-
-/// Kinds are compared by name; a case that another starts from is refused before it runs.
-TEST(ClumpsOfACase, KindsOfAnotherShapeAreRefused) {
-  const TemporaryFolder folder;
-  const std::string a = "[[grains.kind]]\nname = \"a\"\n", b = "[[grains.kind]]\nname = \"b\"\n",
-                    sizes = "sizes = [[0.3e-3, 1]]\n";
-  std::ofstream(folder / "heap.toml") << grain_case(a + b + kCube + sizes);
-  const auto starts = [&](const std::string& kinds) {
-    return lines_of([&] {
-      load_case_text(
-          "[time]\nend = 1.0\n[domain]\nsize = [0.1, 0.025, 0.04]\n[initial]\n"
-          "grains = \"heap.toml\"\n[grains]\n" +
-              kinds,
-          folder / "case.toml");
-    });
-  };
-  EXPECT_EQ(starts(b + kCube + a), Lines{});
-  const Lines lines = starts(b + a + kCube);
-  ASSERT_EQ(lines.size(), 2u);
-  EXPECT_TRUE(contains(lines[0],
-                       "must hold clumps \"cube\" of the kind \"a\", as "
-                       "grains.kind.2.clump says; it holds spheres"))
-      << lines[0];
 }
 
 }  // namespace
