@@ -13,7 +13,6 @@
 #include "src/case/heaps.hpp"
 #include "src/case/resolved.hpp"
 #include "src/coupling/state_checks.hpp"
-#include "src/grains/inertia_in_contacts.hpp"
 #include "src/grains/kinds.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/initial/pour.hpp"
