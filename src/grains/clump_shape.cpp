@@ -10,6 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kernels/grains/sphere.hpp"
 #include "src/grains/disc_cells.hpp"
 #include "src/grains/union_of_spheres.hpp"
 
@@ -18,7 +19,7 @@ namespace barchan {
 namespace {
 
 constexpr Real kGap = 1e-5;         // spheres that touch may be as far apart, over their radii
-constexpr Real kLeastShare = 1e-6;  // of a sphere in the volume of its clump
+constexpr Real kLeastPart = 1e-6;   // of a sphere that is its own, over its volume
 constexpr Real kSameMoment = 1e-9;  // moments that differ by less, over the largest, are equal
 
 Eigen::Vector3d eigen(const Vec3& a) { return {a.x, a.y, a.z}; }
@@ -111,7 +112,7 @@ std::string problem_of_clump(const std::vector<ClumpSphere>& spheres) {
     return fmt::format("sphere {} of a clump touches none that is joined to sphere 1", j + 1);
   const UnionMoments moments = moments_of_union(spheres, kNodes);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    if (moments.volumes[i] < kLeastShare * moments.volume)
+    if (moments.volumes[i] < kLeastPart * sphere_volume(spheres[i].radius))
       return fmt::format("sphere {} of a clump is wholly inside the others; leave it out", i + 1);
   }
   return {};

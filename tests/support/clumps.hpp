@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <string>
 #include <vector>
 
 #include "src/grains/clumps.hpp"
+#include "tests/support/config_problems.hpp"
 #include "tests/support/coupled_run.hpp"
 #include "tests/support/grain_bench.hpp"
 
@@ -30,6 +32,14 @@ inline Config clump_config(NamedClump name) {
   Config c = grain_config();
   c.grains->shape = {.shape = GrainShape::clump, .clump = name};
   return c;
+}
+
+/// Keys of [grains] for cubes of eight spheres.
+inline const std::string kCube = "shape = \"clump\"\nclump = \"cube\"\n";
+
+/// A case with more lines in [grains].
+inline Config case_of(const std::string& lines) {
+  return load_config_text(grain_case(lines), "case.toml");
 }
 
 /// Adds one grain with an orientation.

@@ -8,15 +8,9 @@
 #include <set>
 
 #include "kernels/grains/contact_law.hpp"
-#include "kernels/grains/sphere.hpp"
-#include "src/case/grain_checks.hpp"
-#include "src/case/heaps.hpp"
 #include "src/case/resolved.hpp"
 #include "src/coupling/state_checks.hpp"
-#include "src/grains/inertia_in_contacts.hpp"
-#include "src/grains/kinds.hpp"
 #include "src/initial/initial_state.hpp"
-#include "src/initial/pour.hpp"
 #include "src/restart/checkpoint.hpp"
 #include "src/results/output_files.hpp"
 #include "tests/support/clumps.hpp"
@@ -28,12 +22,6 @@ namespace barchan {
 namespace {
 
 using namespace test;
-
-const std::string kCube = "shape = \"clump\"\nclump = \"cube\"\n";
-
-Config case_of(const std::string& lines) {
-  return load_config_text(grain_case(lines), "case.toml");
-}
 
 /// Orientations are those of the shape that a file holds, so another shape is refused.
 TEST(ClumpsOfFiles, GrainsOfAnotherShapeAreRefused) {

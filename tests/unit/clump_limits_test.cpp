@@ -8,14 +8,8 @@
 #include <set>
 
 #include "kernels/grains/contact_law.hpp"
-#include "kernels/grains/sphere.hpp"
-#include "src/case/grain_checks.hpp"
-#include "src/case/heaps.hpp"
-#include "src/case/resolved.hpp"
 #include "src/coupling/state_checks.hpp"
-#include "src/grains/kinds.hpp"
 #include "src/initial/initial_state.hpp"
-#include "src/initial/pour.hpp"
 #include "src/restart/checkpoint.hpp"
 #include "src/results/output_files.hpp"
 #include "tests/support/clumps.hpp"

@@ -28,12 +28,6 @@ namespace {
 
 using namespace test;
 
-const std::string kCube = "shape = \"clump\"\nclump = \"cube\"\n";
-
-Config case_of(const std::string& lines) {
-  return load_config_text(grain_case(lines), "case.toml");
-}
-
 TEST(ClumpsOfACase, AreWrittenAsTheyAreRead) {
   const Config c =
       case_of("shape = \"clump\"\nspheres = [[0.0, 0.0, 0.0, 1.0], [1.5, 0.0, 0.25, 0.75]]\n");
