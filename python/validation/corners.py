@@ -1,6 +1,6 @@
 """corners: heap, dune and threshold of clumps without rolling friction beside those of spheres with it, from the runs
-of configs/field/corners.toml and corners-threshold.toml. `--keep` takes the folder of either study, and keeps the rows
-of the other one.
+of configs/field/corners.toml and configs/validation/corners-threshold.toml. `--keep` takes the folder of either study,
+and keeps the rows of the other one.
 
 A row is a number of a run. `heap ...`: of the heap at the start; `slope` is the mean angle of its two sides along the
 stream. `threshold`: Shields number at which the load of a bed goes to zero, as in threshold.py. The others are of the
@@ -66,7 +66,7 @@ def save(folder, out):
     path = out / f"{NAME}.csv"
     rows = {**(rows_of(path) if path.exists() else {}), **found}
     return tables.keep(path, "Clumps, and spheres with rolling friction",
-                       "./barchan sweep configs/field/corners.toml; ./barchan sweep configs/field/corners-threshold.toml",
+                       "./barchan sweep configs/field/corners.toml, configs/validation/corners-threshold.toml",
                        runs[0][1].summary, [COLUMNS, *(",".join((*key, value)) for key, value in sorted(rows.items()))])
 
 
