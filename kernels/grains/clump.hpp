@@ -84,9 +84,9 @@ struct alignas(32) PartOfClump {
 
 /// Entries of the spheres of each clump, the clumps in the order of their first spheres.
 struct ClumpMembers {
-  int n = 0;                       // clumps of this rank
-  Kokkos::View<const int*> first;  // (n) where the spheres of a clump begin in `entry`
-  Kokkos::View<const int*> entry;
+  int n = 0;                 // clumps of this rank
+  Kokkos::View<int*> first;  // (n) where the spheres of a clump begin in `entry`
+  Kokkos::View<int*> entry;  // both may be longer: memory is kept
 };
 
 /// Place that says which rank has an entry, and when it leaves: that of its clump.

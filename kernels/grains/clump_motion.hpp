@@ -99,7 +99,7 @@ struct MoveClumps {
     kick(head, kind, contacts, c);
     if constexpr (moves != Moves::out_of_last) {
       c.x = fma(dt, c.u, c.x);
-      c.q = rotate_freely_near_sphere(c.q, clumps.inertia(c, kind), c.j, dt);
+      c.q = rotate_freely(c.q, clumps.inertia(c, kind), c.j, dt);
     }
     clumps.motion(head) = c;
     move_spheres(clump, c, kind, largest);

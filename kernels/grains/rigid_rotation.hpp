@@ -59,11 +59,6 @@ KOKKOS_FORCEINLINE_FUNCTION Vec3 angular_momentum(const Quaternion& q, const Vec
   const Vec3 w = rotate_back(q, omega);
   return rotate(q, {inertia.x * w.x, inertia.y * w.y, inertia.z * w.z});
 }
-/// Energy of the rotation J . omega / 2 [J].
-KOKKOS_FORCEINLINE_FUNCTION Real rotational_energy(const Quaternion& q, const Vec3& inertia,
-                                                   const Vec3& j) {
-  return dot(j, angular_velocity(q, inertia, j)) / 2;
-}
 
 /// Body in free rotation: its orientation, and its angular momentum in its own frame.
 struct FreeBody {
@@ -86,38 +81,17 @@ struct FreeBody {
     const Real cos = fma(c, c, -(s * s)), sin = 2 * s * c;
     l = {fma(cos, l.x, -(sin * l.z)), l.y, fma(cos, l.z, sin * l.x)};
   }
-  KOKKOS_FORCEINLINE_FUNCTION void turn_z(Real angle) {
-    const Real c = Kokkos::cos(angle / 2), s = Kokkos::sin(angle / 2);
-    q = {fma(c, q.w, -(s * q.z)), fma(c, q.x, s * q.y), fma(c, q.y, -(s * q.x)),
-         fma(c, q.z, s * q.w)};
-    const Real cos = fma(c, c, -(s * s)), sin = 2 * s * c;
-    l = {fma(cos, l.x, sin * l.y), fma(cos, l.y, -(sin * l.x)), l.z};
-  }
 };
 
-/// Orientation after a time h [s] without torque. The energy is split into L_k^2/(2 I_k) of the
-/// principal axes, each of which alone turns the body about its axis by h L_k/I_k: x/2, y/2, z,
-/// y/2, x/2. Symplectic, reversible, of second order; J in space is constant. Dullweber, Leimkuhler
-/// & McLachlan, J. Chem. Phys. 107, 5840 (1997); in quaternions Miller et al., J. Chem. Phys. 116,
-/// 8649 (2002).
+/// Orientation after a time h [s] without torque. The energy is split into L^2/(2 I_z), which turns
+/// the body about J in space and commutes with the rest, and (1/I_x - 1/I_z) L_x^2/2 and
+/// (1/I_y - 1/I_z) L_y^2/2, which turn it about its own axes: x/2, y, x/2. Symplectic, reversible,
+/// of second order; J in space is constant. Exact for a sphere and where I_z equals another moment;
+/// the error falls with the differences of the moments. Dullweber, Leimkuhler & McLachlan, J. Chem.
+/// Phys. 107, 5840 (1997) split into axes; Touma & Wisdom, Astron. J. 107, 1189 (1994) into
+/// symmetric tops.
 KOKKOS_FORCEINLINE_FUNCTION Quaternion rotate_freely(const Quaternion& q, const Vec3& inertia,
                                                      const Vec3& j, Real h) {
-  FreeBody body{q, rotate_back(q, j)};
-  body.turn_x(h / 2 * body.l.x / inertia.x);
-  body.turn_y(h / 2 * body.l.y / inertia.y);
-  body.turn_z(h * body.l.z / inertia.z);
-  body.turn_y(h / 2 * body.l.y / inertia.y);
-  body.turn_x(h / 2 * body.l.x / inertia.x);
-  return of_unit_length(body.q);
-}
-
-/// The same with another split: L^2/(2 I_z), which is exact as a rotation in space about J and
-/// commutes with the rest, and (1/I_x - 1/I_z) L_x^2/2, (1/I_y - 1/I_z) L_y^2/2. Exact for a sphere
-/// and for a body with I_y = I_z or I_x = I_z; the error falls with the differences of the moments.
-/// Touma & Wisdom, Astron. J. 107, 1189 (1994) split into symmetric tops.
-KOKKOS_FORCEINLINE_FUNCTION Quaternion rotate_freely_near_sphere(const Quaternion& q,
-                                                                 const Vec3& inertia, const Vec3& j,
-                                                                 Real h) {
   FreeBody body{q, rotate_back(q, j)};
   const Real of_x = 1 / inertia.x - 1 / inertia.z, of_y = 1 / inertia.y - 1 / inertia.z;
   body.turn_x(h / 2 * body.l.x * of_x);

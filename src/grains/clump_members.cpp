@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "src/base/errors.hpp"
 #include "src/grains/list_memory.hpp"
@@ -16,6 +17,15 @@ namespace barchan {
 
 using Entries = Kokkos::View<int*>;
 using Keys = Kokkos::View<std::uint64_t*>;
+
+namespace {
+
+template <class View>
+View first_of(const View& values, int n) {
+  return Kokkos::subview(values, std::pair<int, int>(0, n));
+}
+
+}  // namespace
 
 void check_motions(const GrainState& grains) {
   const auto clump = grains.clump;
@@ -30,10 +40,13 @@ void check_motions(const GrainState& grains) {
                   n_missing, grains.n));
 }
 
-ClumpMembers members_of(const GrainState& grains) {
+void find_members(GrainState& grains, const Keys& room) {
   const int n = grains.n;
-  const auto key = uninitialized<Keys>("clumps: keys", n);
-  const auto entry = uninitialized<Entries>("clumps: entries", n);
+  ClumpMembers& members = grains.members;
+  reserve(members.entry, "clumps: entries", n);
+  reserve(members.first, "clumps: first", n);
+  const Keys key = first_of(room, n);
+  const Entries entry = first_of(members.entry, n), begin = members.first;
   const auto id = grains.id;
   Kokkos::parallel_for(
       "clumps: keys", items(n), KOKKOS_LAMBDA(int g) {
@@ -42,7 +55,7 @@ ClumpMembers members_of(const GrainState& grains) {
         entry(g) = g;
       });
   sort_by_key(key, entry);
-  const auto place = uninitialized<Entries>("clumps: place of entry", n);
+  const auto place = used_as<Entries>(Kokkos::subview(room, std::pair<int, int>(n, 2 * n)), n);
   Kokkos::parallel_for(
       "clumps: places", items(n), KOKKOS_LAMBDA(int p) { place(entry(p)) = p; });
   // Spheres stand one after the other, as many as the kind of the first one has.
@@ -67,17 +80,14 @@ ClumpMembers members_of(const GrainState& grains) {
                                  n - n_in_clumps, n),
                      rank_count(grains.ranks) == 1);
   }
-  const auto first = uninitialized<Entries>("clumps: first", n);
-  ClumpMembers members{.first = first, .entry = entry};
   Kokkos::parallel_scan(
       "clumps: numbers", items(n),
       KOKKOS_LAMBDA(int g, int& count, bool final) {
         if (member_of_id(id(g)) != 0) return;
-        if (final) first(count) = place(g);
+        if (final) begin(count) = place(g);
         ++count;
       },
       members.n);
-  return members;
 }
 
 int clumps_in(const GrainState& grains, const Kokkos::View<const std::uint64_t*>& key) {
@@ -92,10 +102,13 @@ int clumps_in(const GrainState& grains, const Kokkos::View<const std::uint64_t*>
   return clumps;
 }
 
-OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& columns) {
+OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& columns,
+                              const Keys& room, OrderOfPlaces order) {
   const int n = grains.n + grains.n_ghosts;
-  const auto key = uninitialized<Keys>("clumps: keys of columns", n);
-  const auto entry = uninitialized<Entries>("clumps: entries of places", n);
+  reserve(order.entry, "clumps: entries of places", n);
+  reserve(order.grains, "clumps: in order", n);
+  const Keys key = first_of(room, n);
+  const Entries entry = first_of(order.entry, n);
   const auto kin = grains.kin;
   const auto id = grains.id;
   Kokkos::parallel_for(
@@ -114,10 +127,10 @@ OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& col
           entry(b) = one;
         }
       });
-  const auto ordered = uninitialized<Kokkos::View<GrainKinematics*>>("clumps: in order", n);
+  const auto ordered = order.grains;
   Kokkos::parallel_for(
       "clumps: in order", items(n), KOKKOS_LAMBDA(int p) { ordered(p) = kin(entry(p)); });
-  return {ordered, entry};
+  return order;
 }
 
 int columns_of_arm(const LongestArm& arm, const SearchColumns& columns) {

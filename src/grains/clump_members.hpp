@@ -13,9 +13,9 @@ namespace barchan {
 /// std::logic_error otherwise.
 void check_motions(const GrainState& grains);
 
-/// Finds the entries of each clump of this rank from their ids. Throws StateError if one has not
-/// all of its spheres here.
-ClumpMembers members_of(const GrainState& grains);
+/// Finds the entries of each clump of this rank from their ids (grains.members). `room`: at least
+/// two for each entry. Throws StateError if a clump has not all of its spheres here.
+void find_members(GrainState& grains, const Kokkos::View<std::uint64_t*>& room);
 
 /// Number of clumps among the entries whose keys say that they leave.
 int clumps_in(const GrainState& grains, const Kokkos::View<const std::uint64_t*>& key);
@@ -25,8 +25,10 @@ struct OrderOfPlaces {
   Kokkos::View<GrainKinematics*> grains;
   Kokkos::View<int*> entry = {};  // of each place; empty: they are the same
 };
-/// Order that all ranks agree on: equal keys come in the order of the ids.
-OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& columns);
+/// Order that all ranks agree on: equal keys come in the order of the ids. `order` gives its
+/// memory; `room`: at least one for each entry.
+OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& columns,
+                              const Kokkos::View<std::uint64_t*>& room, OrderOfPlaces order);
 
 /// Longest way from the centre of a clump to that of a sphere of it, and the key that says so.
 struct LongestArm {

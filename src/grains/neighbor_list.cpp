@@ -212,7 +212,7 @@ void NeighborList::rebuild(GrainState& grains, bool drop) {
 /// Ends a rebuild: finds ghosts and pairs; from here on the list holds.
 void NeighborList::find_ghosts_and_pairs(GrainState& grains) {
   if (ranks_) ranks_->ghosts.find(grains, columns_, ranks_->partition.owners());
-  if (grains.clump.size() > 0) grains.members = members_of(grains);
+  if (grains.clump.size() > 0) find_members(grains, key_memory_);
   search(grains);
   ++rebuilds_;
 }

@@ -123,6 +123,7 @@ class NeighborList {
   // windows, then the next free entry of incoming pairs.
   Kokkos::View<Vec4*> grain_memory_;
   Kokkos::View<std::uint64_t*> key_memory_;  // two for each grain
+  OrderOfPlaces order_;                      // with clumps on several ranks
   ScratchMemory scratch_;
 };
 
