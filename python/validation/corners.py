@@ -24,6 +24,7 @@ NAME = "corners"
 COLUMNS = "case,realisation,quantity,value"
 OF_HEAP, OF_DUNE, ANGLES = ("W", "L", "H"), ("grains", "W", "L", "H", "celerity", "loss"), ("stoss_angle",
                                                                                            "slip_face_angle")
+SPHERES = {f"rolling-{friction:g}": friction for friction in (0.0, 0.1, 0.3)}
 PANELS = {"heap slope": ("heap: slope [$^\\circ$]", 1), "W": ("W [mm]", 1e3), "L": ("L [mm]", 1e3),
           "celerity": ("celerity [mm/s]", 1e3), "loss": ("loss [%/s]", 100),
           "slip_face_angle": ("slip face [$^\\circ$]", 1), "stoss_angle": ("stoss side [$^\\circ$]", 1),
@@ -87,12 +88,33 @@ def read(source):
     return found
 
 
+def mean_of(found, case, quantity):
+    values = np.array(found.get(case, {}).get(quantity, [np.nan]))
+    return values[np.isfinite(values)].mean() if np.isfinite(values).any() else np.nan
+
+
+def equivalent(found, case, quantity):
+    """Rolling friction that gives spheres the mean of a quantity of a clump, between the nearest of SPHERES; nan beyond
+    them, and where spheres do not change in one direction with their rolling friction."""
+    means = np.array([mean_of(found, name, quantity) for name in SPHERES])
+    rises = np.sign(means[-1] - means[0])
+    if not np.all(rises * np.diff(means) > 0):
+        return np.nan
+    return float(np.interp(rises * mean_of(found, case, quantity), rises * means, list(SPHERES.values()),
+                           left=np.nan, right=np.nan))
+
+
 def summary(source):
-    """A line for each quantity of each case: its mean and standard deviation."""
-    for case, quantities in read(source).items():
+    """A line for each quantity of each case: its mean and standard deviation; of clumps the rolling friction of spheres
+    with the same mean."""
+    found = read(source)
+    for case, quantities in found.items():
         for name, values in quantities.items():
-            found = spread([value for value in values if np.isfinite(value)])
-            yield f"{case}: {name} {found.mean:.4g} +- {found.deviation:.2g} ({len(values)} runs)"
+            known = [value for value in values if np.isfinite(value)]
+            if not known:
+                continue
+            of_runs, alike = spread(known), "" if case in SPHERES else f", as mu_r {equivalent(found, case, name):.2f}"
+            yield f"{case}: {name} {of_runs.mean:.4g} +- {of_runs.deviation:.2g} ({len(known)} runs){alike}"
 
 
 def draw(source):
@@ -103,7 +125,7 @@ def draw(source):
             values = factor * np.array(quantities.get(name, [np.nan]))
             colour = style.BLUE if case.startswith("rolling") else style.VERMILLION
             ax.plot(np.full(len(values), place), values, "o", color=colour)
-            ax.plot(place, np.nanmean(values), "_", ms=18, color=colour)
+            ax.plot(place, factor * mean_of(found, case, name), "_", ms=18, color=colour)
         ax.set_xticks(range(len(found)), [case.replace("rolling-", "$\\mu_r$ = ") for case in found], rotation=30)
         ax.set(ylabel=label)
     return figure
