@@ -1,10 +1,10 @@
 """corners: heap, dune and threshold of clumps without rolling friction beside those of spheres with it, from the runs
-of configs/field/corners.toml and configs/validation/corners-threshold.toml. `--keep` takes the folder of either study,
-and keeps the rows of the other one.
+of configs/field/corners-heap.toml, configs/field/corners.toml and configs/validation/corners-threshold.toml. `--keep`
+takes the folder of one of these studies, and keeps the rows of the others.
 
-A row is a number of a run. `heap ...`: of the heap at the start; `slope` is the mean angle of its two sides along the
-stream. `threshold`: Shields number at which the load of a bed goes to zero, as in threshold.py. The others are of the
-main dune over the second half of the run, as in laws.csv and slopes.csv. SI units, angles in degrees.
+A row is a number of a run. `heap ...`: of a heap at its end; `slope` is the mean angle of its two sides along x.
+`threshold`: Shields number at which the load of a bed goes to zero, as in threshold.py. The others are of the main dune
+over the second half of the run, as in laws.csv and slopes.csv. SI units, angles in degrees.
 """
 
 import csv
@@ -21,6 +21,7 @@ from barchan.stats import spread
 from validation import tables, threshold
 
 NAME = "corners"
+STUDIES = ("configs/field/corners-heap.toml", "configs/field/corners.toml", "configs/validation/corners-threshold.toml")
 COLUMNS = "case,realisation,quantity,value"
 OF_HEAP, OF_DUNE, ANGLES = ("W", "L", "H"), ("grains", "W", "L", "H", "celerity", "loss"), ("stoss_angle",
                                                                                            "slip_face_angle")
@@ -32,8 +33,10 @@ PANELS = {"heap slope": ("heap: slope [$^\\circ$]", 1), "W": ("W [mm]", 1e3), "L
 
 
 def measure(run):
-    """(quantity, value) of a bed, or of heap and dune."""
-    return of_bed(run) if run.config["grains"]["boundary_x"] == "periodic" else of_dune(run)
+    """(quantity, value) of a bed, a heap in still water, or a dune."""
+    if run.config["grains"]["boundary_x"] == "periodic":
+        return of_bed(run)
+    return of_dune(run) if "fluid" in run.config else of_heap(run)
 
 
 def of_bed(run):
@@ -42,13 +45,16 @@ def of_bed(run):
     yield "threshold", threshold.zero(shields[low], load[low])[1]
 
 
-def of_dune(run):
-    dune, grains = run.main_dune_columns, run.frame(0)
+def of_heap(run):
+    dune, grains = run.main_dune_columns, run.frame(-1)
     for name in OF_HEAP:
-        yield f"heap {name}", dune[name][0]
+        yield f"heap {name}", dune[name][-1]
     heap = shape.main_dune(grains, bed_of(run), run.dune_columns[shape.MAIN])
     sides = slopes(heap, grains.d.mean()) if heap else None
     yield "heap slope", np.nanmean([sides.stoss, sides.slip_face]) if sides else np.nan
+
+
+def of_dune(run):
     late = laws.of_run(run)
     for name in OF_DUNE:
         yield name, late[name]
@@ -61,13 +67,13 @@ def save(folder, out):
     study = StudyFolder(folder)
     runs = [(case, run) for case in study.cases for run in case.runs if not gap_of(run.path)]
     if not runs:
-        raise MissingData(f"needs finished runs of configs/field/corners.toml or corners-threshold.toml in {folder}")
+        raise MissingData(f"needs finished runs of one of the studies {', '.join(STUDIES)} in {folder}")
     found = {(case.name, str(run.config["initial"]["realisation"]), quantity): f"{value:.6g}"
              for case, run in runs for quantity, value in measure(run)}
     path = out / f"{NAME}.csv"
     rows = {**(rows_of(path) if path.exists() else {}), **found}
     return tables.keep(path, "Clumps, and spheres with rolling friction",
-                       "./barchan sweep configs/field/corners.toml, configs/validation/corners-threshold.toml",
+                       "./barchan sweep " + ", ".join(STUDIES),
                        runs[0][1].summary, [COLUMNS, *(",".join((*key, value)) for key, value in sorted(rows.items()))])
 
 

@@ -1,4 +1,4 @@
-"""The table of clumps and spheres: two studies in one file, and the rolling friction that is alike."""
+"""The table of clumps and spheres: three studies in one file, and the rolling friction that is alike."""
 
 import tomllib
 
@@ -40,7 +40,6 @@ def test_a_folder_without_runs_is_refused(tmp_path):
         corners.read(tmp_path)
 
 
-def test_cases_of_both_studies_are_the_same():
-    names = [set(tomllib.loads((ROOT / f"configs/{file}.toml").read_text())["cases"])
-             for file in ("field/corners", "validation/corners-threshold")]
-    assert names[0] == names[1] > set(corners.SPHERES)
+def test_the_studies_have_the_same_cases():
+    first, *others = [set(tomllib.loads((ROOT / study).read_text())["cases"]) for study in corners.STUDIES]
+    assert first > set(corners.SPHERES) and all(other == first for other in others)

@@ -25,7 +25,7 @@ expect "setup sweep" s
 expect "" nonsense x
 expect "--restart --resume" run case.toml --res
 expect "quickstart.toml" run quick
-expect "field/all.toml field/corners.toml field/encounters.toml field/sizes.toml" sweep field/
+expect "field/all.toml field/corners-heap.toml field/corners.toml field/encounters.toml field/sizes.toml" sweep field/
 expect "small/friction-3k.toml" sweep small/fr
 expect "" run field/sizes
 expect "mine/\$(touch hacked).toml mine/case.toml" run mine/
