@@ -46,19 +46,21 @@ struct ExchangeOfGrain {
 /// Marks the columns of cells, those of all ranks, that hold grains.
 struct MarkColumns {
   GridRef grid;
+  PeriodicBox box;  // periods of the grains
   Kokkos::View<const GrainKinematics*> grains;
   Real reach;               // radius of the largest grain [m]
   Kokkos::View<int*> mark;  // i + nx_all k, then the rows up to the highest
 
   KOKKOS_FUNCTION void operator()(int g) const {
     const Vec3 x = grains(g).x;
-    const auto column = [](Real at, Real spacing, int n) {
-      return DepositStencil::wrap(GridRef::cell_along(at, spacing), n);
+    const auto column = [](Real at, Real spacing, int n, Real period) {  // as place_x
+      const int c = GridRef::cell_along(at, spacing);
+      return period > 0 ? DepositStencil::wrap(c, n) : Kokkos::clamp(c, 0, n - 1);
     };
-    const int i[2] = {column(x.x - reach, grid.dx, grid.nx_all),
-                      column(x.x + reach, grid.dx, grid.nx_all)};
-    const int k[2] = {column(x.z - reach, grid.dz, grid.nz_all),
-                      column(x.z + reach, grid.dz, grid.nz_all)};
+    const int i[2] = {column(x.x - reach, grid.dx, grid.nx_all, box.lx),
+                      column(x.x + reach, grid.dx, grid.nx_all, box.lx)};
+    const int k[2] = {column(x.z - reach, grid.dz, grid.nz_all, box.lz),
+                      column(x.z + reach, grid.dz, grid.nz_all, box.lz)};
     for (const int kk : k) {
       for (const int ii : i) Kokkos::atomic_store(&mark(ii + grid.nx_all * kk), 1);
     }

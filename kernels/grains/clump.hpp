@@ -25,8 +25,8 @@ struct alignas(32) ClumpMotion {
 /// clump. So contacts know their spheres, and the first sphere has the number of the clump.
 inline constexpr int kNumberBits = 40;
 inline constexpr std::int64_t kLargestNumber = (std::int64_t{1} << kNumberBits) - 1;
-/// Largest number of spheres of a clump.
-inline constexpr int kMostSpheres = 255;
+/// Largest number of spheres of a clump: the quadrature of 64 that all overlap takes seconds.
+inline constexpr int kMostSpheres = 64;
 
 KOKKOS_FORCEINLINE_FUNCTION constexpr std::int64_t clump_of_id(std::int64_t id) {
   return id & kLargestNumber;

@@ -102,7 +102,9 @@ struct StableStepOfGrains {
 };
 
 /// The same for clumps, whose spheres turn together: a contact counts by how much it turns them, as
-/// many of the first sphere. With all at their worst points and directions this is a bound.
+/// many of the first sphere. Clumps that stand on planes with all contacts at their worst points
+/// and directions need up to 1.24 times shorter steps (sand; cubes 1.10): they move and turn at
+/// once.
 template <class Laws>
 struct StableStepOfClumps {
   StableStepOfGrains<Laws> spheres;

@@ -104,7 +104,7 @@ void add_grains(Sections& all) {
       .by_default = "0.2 d";
   key("max_overlap", &G::max_overlap, above(0).at_most(1), "",
       "largest overlap before the run stops, over the mean diameter of the pair (at a wall: the "
-      "grain)");
+      "grain); of clumps: of their spheres");
 }
 
 void add_ambient(Sections& all) {

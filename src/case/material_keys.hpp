@@ -31,7 +31,10 @@ void add_shape(Section& section, Get get) {
       "volume",
       fixed_by_restart);
   key("spheres", &S::spheres,
-      "spheres of a clump in any unit of length, which may overlap: only their union counts",
+      "spheres of a clump in any unit of length. They may overlap: volume, mass and inertia are "
+      "those "
+      "of their union; contacts count sphere by sphere, so where several overlap a contact is "
+      "stiffer and its restitution lower",
       fixed_by_restart);
   key("clump", &S::clump,
       "a clump with a name: two overlapping spheres, four or eight that touch, or an angular grain "

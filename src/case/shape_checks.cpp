@@ -30,7 +30,7 @@ void check_shape(const ShapeConfig& shape, const std::string& section, Findings&
   if (found.error_if(all.size() > kMostSpheres, {spheres, of},
                      "must be at most {} spheres; there are {}", kMostSpheres, all.size()))
     return;
-  const std::string problem = problem_of_clump(all);
+  const std::string problem = problem_of(shape);
   found.error_if(!problem.empty(), {spheres, of}, "must be a whole: {}", problem);
 }
 

@@ -62,7 +62,7 @@ void CouplingGrid::renormalise(Field& f, const Region& region) const {
 void CouplingGrid::mark_columns_of(const GrainState& grains) const {
   marks.set_zero();
   Kokkos::parallel_for("coupling: columns of grains", items(grains.n),
-                       MarkColumns{grid, grains.kin, reach_of_grain, marks.row(kOfGrains)});
+                       MarkColumns{grid, box, grains.kin, reach_of_grain, marks.row(kOfGrains)});
 }
 
 ColumnMap CouplingGrid::columns_of_grains() const {

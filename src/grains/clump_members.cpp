@@ -80,6 +80,7 @@ void find_members(GrainState& grains, const Keys& room) {
                                  n - n_in_clumps, n),
                      rank_count(grains.ranks) == 1);
   }
+  members.n = 0;  // a device leaves it where there is no work
   Kokkos::parallel_scan(
       "clumps: numbers", items(n),
       KOKKOS_LAMBDA(int g, int& count, bool final) {

@@ -87,9 +87,8 @@ Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& inertia) {
   return axes;
 }
 
-}  // namespace
-
-std::string problem_of_clump(const std::vector<ClumpSphere>& spheres) {
+/// What is wrong with spheres that make no clump; empty if nothing.
+std::string problem_of(const std::vector<ClumpSphere>& spheres) {
   if (spheres.empty()) return "a clump needs at least one sphere";
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const auto& [c, radius] = spheres[i];
@@ -110,7 +109,12 @@ std::string problem_of_clump(const std::vector<ClumpSphere>& spheres) {
   }
   if (const std::size_t j = first_apart(spheres); j > 0)
     return fmt::format("sphere {} of a clump touches none that is joined to sphere 1", j + 1);
-  const UnionMoments moments = moments_of_union(spheres, kNodes);
+  return {};
+}
+
+/// The same of one that has nothing of its own.
+std::string problem_of_hidden(const std::vector<ClumpSphere>& spheres,
+                              const UnionMoments& moments) {
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     if (moments.volumes[i] < kLeastPart * sphere_volume(spheres[i].radius))
       return fmt::format("sphere {} of a clump is wholly inside the others; leave it out", i + 1);
@@ -118,10 +122,7 @@ std::string problem_of_clump(const std::vector<ClumpSphere>& spheres) {
   return {};
 }
 
-ClumpShape clump_shape(const std::vector<ClumpSphere>& spheres, int nodes) {
-  if (const std::string problem = problem_of_clump(spheres); !problem.empty())
-    throw std::runtime_error(problem);
-  const UnionMoments moments = moments_of_union(spheres, nodes);
+ClumpShape shape_of(const std::vector<ClumpSphere>& spheres, const UnionMoments& moments) {
   const Eigen::Vector3d centre = moments.first / moments.volume;
   const Eigen::Matrix3d spread = moments.second / moments.volume - centre * centre.transpose();
   const Eigen::Matrix3d inertia = spread.trace() * Eigen::Matrix3d::Identity() - spread;
@@ -147,6 +148,22 @@ ClumpShape clump_shape(const std::vector<ClumpSphere>& spheres, int nodes) {
                            projected_area(shape.spheres, {0, 1, 0}),
                            projected_area(shape.spheres, {0, 0, 1})};
   return shape;
+}
+
+}  // namespace
+
+ShapeOrProblem make_clump(const std::vector<ClumpSphere>& spheres, int nodes) {
+  if (const std::string problem = problem_of(spheres); !problem.empty()) return {{}, problem};
+  const UnionMoments moments = moments_of_union(spheres, nodes);
+  if (const std::string hidden = problem_of_hidden(spheres, moments); !hidden.empty())
+    return {{}, hidden};
+  return {shape_of(spheres, moments), {}};
+}
+
+ClumpShape clump_shape(const std::vector<ClumpSphere>& spheres, int nodes) {
+  const ShapeOrProblem made = make_clump(spheres, nodes);
+  if (!made.problem.empty()) throw std::runtime_error(made.problem);
+  return made.shape;
 }
 
 Real ClumpShape::sphericity() const {

@@ -41,13 +41,16 @@ struct ClumpShape {
 /// Nodes of the quadrature in each interval.
 inline constexpr int kNodes = 16;
 
-/// What is wrong with a clump, as a sentence; empty if nothing.
-std::string problem_of_clump(const std::vector<ClumpSphere>& spheres);
-
-/// Shape of a clump; throws std::runtime_error with problem_of_clump(). Slices of the union are
-/// exact, their integral is by Gauss-Legendre quadrature with `nodes` in each interval between two
-/// heights at which a slice changes its topology. Relative error of 16 nodes: below 1e-12. Axes of
-/// equal moments are as near to those given as can be.
+/// Shape of a clump, or what is wrong with it, as a sentence.
+struct ShapeOrProblem {
+  ClumpShape shape;
+  std::string problem;  // empty: nothing
+};
+/// Slices of the union are exact, their integral is by Gauss-Legendre quadrature with `nodes` in
+/// each interval between two heights at which a slice changes its topology. Relative error of 16
+/// nodes: below 1e-12. Axes of equal moments are as near to those given as can be.
+ShapeOrProblem make_clump(const std::vector<ClumpSphere>& spheres, int nodes = kNodes);
+/// The shape; throws std::runtime_error with the problem.
 ClumpShape clump_shape(const std::vector<ClumpSphere>& spheres, int nodes = kNodes);
 
 /// Area of the shadow of a clump in a direction, of any length, in the frame of its spheres; exact.

@@ -31,10 +31,10 @@ struct KnownShape {
   std::vector<ClumpSphere> given;
   ClumpShape shape;
   std::vector<InertiaInContacts> in_contacts;
+  std::string problem = {};
 };
 
-/// Shape of a kind. Those of all kinds of a program are few: they are kept. One that is none, as
-/// check_shapes tells, is taken as a sphere.
+/// Shape of a kind, found once. One with a problem, as check_shapes tells, is taken as a sphere.
 const KnownShape& known_shape(const ShapeConfig& shape) {
   static const KnownShape sphere{{},
                                  {.spheres = {{{}, 0.5}},
@@ -45,12 +45,13 @@ const KnownShape& known_shape(const ShapeConfig& shape) {
                                   .projected_areas = {kPi / 4, kPi / 4, kPi / 4}},
                                  {{}}};
   static std::deque<KnownShape> known;
-  if (!is_clump(shape)) return sphere;
   const std::vector<ClumpSphere> spheres = spheres_of(shape);
+  if (!is_clump(shape) || spheres.size() > kMostSpheres) return sphere;
   for (const KnownShape& one : known)
     if (one.given == spheres) return one;
-  if (!problem_of_clump(spheres).empty()) return sphere;
-  const ClumpShape made = clump_shape(spheres);
+  const auto [made, problem] = make_clump(spheres);
+  if (!problem.empty())
+    return known.emplace_back(KnownShape{spheres, sphere.shape, sphere.in_contacts, problem});
   return known.emplace_back(KnownShape{spheres, made, inertia_in_contacts(made)});
 }
 
@@ -130,6 +131,10 @@ std::vector<ClumpSphere> spheres_of(const ShapeConfig& shape) {
 
 bool is_clump(const ShapeConfig& shape) {
   return shape.shape == GrainShape::clump && spheres_of(shape).size() > 1;
+}
+
+std::string problem_of(const ShapeConfig& shape) {
+  return is_clump(shape) ? known_shape(shape).problem : make_clump(spheres_of(shape)).problem;
 }
 
 bool has_clumps(const GrainConfig& grains) {
@@ -250,11 +255,8 @@ GrainState whole_grains(const GrainState& grains) {
   whole.clump = Kokkos::View<ClumpMotion*>("clump", whole.id.extent(0));
   whole.shapes = grains.shapes;
   whole.kind_names = grains.kind_names, whole.heap_names = grains.heap_names;
-  whole.fluid.has_fluid = grains.fluid.has_fluid;
-  whole.r_max = grains.r_max, whole.r_min = grains.r_min;
-  whole.sauter_diameter = grains.sauter_diameter;
-  whole.n_initial = grains.n_initial, whole.last_id = grains.last_id;
-  whole.n_left = grains.n_left, whole.feed = grains.feed, whole.window_edge = grains.window_edge;
+  whole.fluid.has_fluid = grains.fluid.has_fluid, whole.window_edge = grains.window_edge;
+  whole.last_id = grains.last_id, whole.feed = grains.feed;
   const auto kin = whole.kin;
   const auto clump = whole.clump;
   const auto force = whole.contact_force, torque = whole.contact_torque;
@@ -276,7 +278,6 @@ GrainState whole_grains(const GrainState& grains) {
   take_of_heads(clumps, grains.kind, whole.kind);
   take_of_heads(clumps, grains.heap, whole.heap);
   take_of_heads(clumps, grains.fluid.explicit_force, whole.fluid.explicit_force);
-  take_of_heads(clumps, grains.fluid.impulse, whole.fluid.impulse);
   take_of_heads(clumps, grains.fluid.u_start, whole.fluid.u_start);
   return whole;
 }

@@ -18,6 +18,8 @@ namespace barchan {
 std::vector<ClumpSphere> spheres_of(const ShapeConfig& shape);
 /// Tells if grains of this shape are clumps; a clump of one sphere is a sphere.
 bool is_clump(const ShapeConfig& shape);
+/// What is wrong with the spheres of a clump, as a sentence; empty if nothing.
+std::string problem_of(const ShapeConfig& shape);
 bool has_clumps(const GrainConfig& grains);
 /// Number of spheres of a grain.
 int sphere_count(const ShapeConfig& shape);

@@ -39,10 +39,11 @@ class Search {
   Search(const InitialGrains& grains, const PeriodicBox& box)
       : grains_(grains), box_(box), width_(std::ranges::max(grains.diameter)) {
     for (std::size_t g = 0; g < grains.size(); ++g) {
-      const bool x = box.lx > 0 && grains.x[g].x<width_, z = box.lz> 0 && grains.x[g].z < width_;
+      const Vec3 at = box.wrap(grains.x[g]);  // spheres of a clump may lie past a seam
+      const bool x = box.lx > 0 && at.x<width_, z = box.lz> 0 && at.z < width_;
       for (const bool beyond_x : {false, true})
         for (const bool beyond_z : {false, true})
-          if ((x || !beyond_x) && (z || !beyond_z)) add(g, beyond_x, beyond_z);
+          if ((x || !beyond_x) && (z || !beyond_z)) add(g, at, beyond_x, beyond_z);
     }
     std::ranges::sort(order_, {}, key);
   }
@@ -73,9 +74,8 @@ class Search {
     return a.slab == b.slab && b.z <= a.z + width_;
   }
 
-  void add(std::size_t g, bool beyond_x, bool beyond_z) {
-    const double x = grains_.x[g].x + (beyond_x ? box_.lx : 0);
-    const double z = grains_.x[g].z + (beyond_z ? box_.lz : 0);
+  void add(std::size_t g, const Vec3& at, bool beyond_x, bool beyond_z) {
+    const double x = at.x + (beyond_x ? box_.lx : 0), z = at.z + (beyond_z ? box_.lz : 0);
     order_.push_back({static_cast<std::int64_t>(std::floor(x / width_)), z, g, beyond_x, beyond_z});
   }
 

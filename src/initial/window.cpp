@@ -53,12 +53,16 @@ void cut_in_walls(const Config& config, const Spheres& spheres, std::vector<bool
   }
 }
 
-/// Spheres within a largest diameter of a side where the box repeats.
+/// Spheres that may meet others across a side where the box repeats. Those of a clump may lie past
+/// it, as far as they are from the centre.
 std::vector<std::size_t> at_seams(const PeriodicBox& box, const InitialGrains& spheres) {
   std::vector<std::size_t> found;
-  const double r_max = std::ranges::max(spheres.diameter) / 2;
-  const auto near = [r_max](double x, double length) {
-    return length > 0 && (x < 2 * r_max || x > length - 2 * r_max);
+  double reach = 0;
+  for (std::size_t s = 0; s < spheres.clump.size(); ++s)
+    reach = std::max(reach, norm(spheres.x[s] - spheres.clump[s].x));
+  reach += std::ranges::max(spheres.diameter);
+  const auto near = [reach](double x, double length) {
+    return length > 0 && (x < reach || x > length - reach);
   };
   for (std::size_t s = 0; s < spheres.size(); ++s)
     if (near(spheres.x[s].x, box.lx) || near(spheres.x[s].z, box.lz)) found.push_back(s);

@@ -193,6 +193,28 @@ TEST(ClumpWindow, OfClumpsThatOverlapWhereSidesMeetOneGoes) {
   EXPECT_EQ(rows.size(), 4u);
 }
 
+/// Four spheres of a rod, 0.63 d apart, lie past the side and meet one that is farther inside than
+/// any of its spheres is wide.
+TEST(ClumpWindow, OfClumpsThatOverlapFarPastASideOneGoes) {
+  for (const bool along_x : {true, false}) {
+    Config c = window_case(kPitch, kPitch);
+    const PeriodicBox box{c.size[0], c.size[2]};
+    c.initial.window = {0, 0};
+    const Real y = 1e-3, mid = 2 * kPitch;
+    const auto at = [&](Real along) { return along_x ? Vec3{along, y, mid} : Vec3{mid, y, along}; };
+    InitialGrains rods;
+    add_grain(rods, kD, at((along_x ? box.lx : box.lz) - 0.01 * kD));
+    add_grain(rods, kD, at(1.9 * kD));
+    const Quaternion q = rotation_about({0, 1, 0}, along_x ? 0 : std::numbers::pi_v<Real> / 2);
+    rods.q.assign(2, q);
+    EXPECT_TRUE(contains(
+        message_of([&] { check_overlaps(spheres_at_start(rods, c), box, 0.1, "rods.csv"); }),
+        "grains 1 and 2 overlap"));
+    cut_to_window(c, box, rods);
+    EXPECT_EQ(rods.size(), 1u) << along_x;
+  }
+}
+
 TEST(ClumpWindow, ClumpsThatReachIntoAWallGo) {
   Config c = window_case(kPitch, kPitch);
   InitialGrains open = layer(), walled = layer();

@@ -22,10 +22,6 @@ namespace {
 
 using namespace test;
 
-Config case_of(const std::string& lines) {
-  return load_config_text(grain_case(lines), "case.toml");
-}
-
 /// Among several ranks a clump may reach over a few columns of the search alone.
 TEST(LimitsOfClumps, TooLongForSeveralRanksNamesItsKey) {
   GrainConfig grains;

@@ -241,7 +241,7 @@ TEST(ClumpShape, MeanShadowIsBelowAQuarterOfTheSurface) {
 
 TEST(ClumpShape, RefusesWhatIsNoClump) {
   const auto problem = [](const Spheres& spheres) {
-    const std::string text = problem_of_clump(spheres);
+    const std::string text = make_clump(spheres).problem;
     EXPECT_THROW((void)clump_shape(spheres), std::runtime_error) << text;
     return text;
   };
@@ -259,9 +259,9 @@ TEST(ClumpShape, RefusesWhatIsNoClump) {
             "sphere 2 of a clump is wholly inside sphere 1; leave it out");
   EXPECT_EQ(problem({{{}, 1}, {{}, 1}}),
             "sphere 2 of a clump is wholly inside sphere 1; leave it out");
-  EXPECT_EQ(problem_of_clump({{{}, 1}, {{2, 0, 0}, 1}, {{4, 0, 0}, 1}}), "");
+  EXPECT_EQ(make_clump({{{}, 1}, {{2, 0, 0}, 1}, {{4, 0, 0}, 1}}).problem, "");
   // Six digits in a file are enough for spheres that touch.
-  EXPECT_EQ(problem_of_clump({{{}, 0.333333}, {{0.666667, 0, 0}, 0.333333}}), "");
+  EXPECT_EQ(make_clump({{{}, 0.333333}, {{0.666667, 0, 0}, 0.333333}}).problem, "");
 }
 
 }  // namespace
