@@ -31,10 +31,9 @@ void add_shape(Section& section, Get get) {
       "volume",
       fixed_by_restart);
   key("spheres", &S::spheres,
-      "spheres of a clump in any unit of length. They may overlap: volume, mass and inertia are "
-      "those "
-      "of their union; contacts count sphere by sphere, so where several overlap a contact is "
-      "stiffer and its restitution lower",
+      "spheres of a clump, at most 64, in any unit of length. They may overlap: volume, mass and "
+      "inertia are those of their union. Contacts count sphere by sphere: where several overlap, a "
+      "contact is stiffer and its restitution lower",
       fixed_by_restart);
   key("clump", &S::clump,
       "a clump with a name: two overlapping spheres, four or eight that touch, or an angular grain "
