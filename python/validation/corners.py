@@ -3,8 +3,9 @@ of configs/field/corners-heap.toml, configs/field/corners.toml and configs/valid
 takes the folder of one of these studies, and keeps the rows of the others.
 
 A row is a number of a run. `heap ...`: of a heap at its end; `slope` is the mean angle of its two sides along x.
-`threshold`: Shields number at which the load of a bed goes to zero, as in threshold.py. The others are of the main dune
-over the second half of the run, as in laws.csv and slopes.csv. SI units, angles in degrees.
+`threshold`: Shields number at which q* passes 0.01, as in threshold.py; the load says none where all grains creep, as
+spheres without rolling friction do. The others are of the main dune over the second half of the run, as in laws.csv and
+slopes.csv. SI units, angles in degrees.
 """
 
 import csv
@@ -25,6 +26,7 @@ STUDIES = ("configs/field/corners-heap.toml", "configs/field/corners.toml", "con
 COLUMNS = "case,realisation,quantity,value"
 OF_HEAP, OF_DUNE, ANGLES = ("W", "L", "H"), ("grains", "W", "L", "H", "celerity", "loss"), ("stoss_angle",
                                                                                            "slip_face_angle")
+LOGARITHMIC = "celerity", "loss"
 SPHERES = {f"rolling-{friction:g}": friction for friction in (0.0, 0.1, 0.3)}
 PANELS = {"heap slope": ("heap: slope [$^\\circ$]", 1), "W": ("W [mm]", 1e3), "L": ("L [mm]", 1e3),
           "celerity": ("celerity [mm/s]", 1e3), "loss": ("loss [%/s]", 100),
@@ -40,9 +42,9 @@ def measure(run):
 
 
 def of_bed(run):
-    shields, q_star, load = np.transpose([row[-3:] for row in threshold.measure(run)])
-    low = q_star <= threshold.FITTED[1]
-    yield "threshold", threshold.zero(shields[low], load[low])[1]
+    shields, q_star, _ = np.transpose([row[-3:] for row in threshold.measure(run)])
+    transport = threshold.passing(threshold.LEVELS["transport"])
+    yield "threshold", transport({"shields": shields, "q_star": q_star})
 
 
 def of_heap(run):
@@ -133,5 +135,5 @@ def draw(source):
             ax.plot(np.full(len(values), place), values, "o", color=colour)
             ax.plot(place, factor * mean_of(found, case, name), "_", ms=18, color=colour)
         ax.set_xticks(range(len(found)), [case.replace("rolling-", "$\\mu_r$ = ") for case in found], rotation=30)
-        ax.set(ylabel=label)
+        ax.set(ylabel=label, xlim=(-0.5, len(found) - 0.5), yscale="log" if name in LOGARITHMIC else "linear")
     return figure

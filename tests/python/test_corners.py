@@ -16,11 +16,12 @@ def write(folder, rows):
 
 
 def test_the_rolling_friction_that_is_alike(tmp_path):
-    write(tmp_path, [(case, run, name, sign * (10 + 100 * friction + run)) for case, friction in corners.SPHERES.items()
-                     for run in (0, 2) for name, sign in (("heap slope", 1), ("loss", -1))]
+    write(tmp_path, [(case, run, name, zero + sign * (10 + 100 * friction + run))
+                     for case, friction in corners.SPHERES.items() for run in (0, 2)
+                     for name, zero, sign in (("heap slope", 0, 1), ("loss", 100, -1))]
           + [("rolling-0", 0, "W", 1), ("rolling-0.1", 0, "W", 3), ("rolling-0.3", 0, "W", 2), ("sand", 0, "W", 2),
-             ("sand", 0, "heap slope", 30), ("sand", 1, "heap slope", 32), ("sand", 0, "loss", -15),
-             ("sand", 0, "L", 1), ("tetrahedron", 0, "loss", -99)])
+             ("sand", 0, "heap slope", 30), ("sand", 1, "heap slope", 32), ("sand", 0, "loss", 85),
+             ("sand", 0, "L", 1), ("tetrahedron", 0, "loss", 1)])
     found = corners.read(tmp_path)
     assert corners.equivalent(found, "sand", "heap slope") == pytest.approx(0.2)
     assert corners.equivalent(found, "sand", "loss") == pytest.approx(0.04)
