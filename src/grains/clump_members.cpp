@@ -80,15 +80,12 @@ void find_members(GrainState& grains, const Keys& room) {
                                  n - n_in_clumps, n),
                      rank_count(grains.ranks) == 1);
   }
-  members.n = 0;  // a device leaves it where there is no work
-  Kokkos::parallel_scan(
-      "clumps: numbers", items(n),
-      KOKKOS_LAMBDA(int g, int& count, bool final) {
+  members.n = scan(
+      "clumps: numbers", items(n), KOKKOS_LAMBDA(int g, int& count, bool final) {
         if (member_of_id(id(g)) != 0) return;
         if (final) begin(count) = place(g);
         ++count;
-      },
-      members.n);
+      });
 }
 
 int clumps_in(const GrainState& grains, const Kokkos::View<const std::uint64_t*>& key) {
@@ -103,8 +100,8 @@ int clumps_in(const GrainState& grains, const Kokkos::View<const std::uint64_t*>
   return clumps;
 }
 
-OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& columns,
-                              const Keys& room, OrderOfPlaces order) {
+void find_order(const GrainState& grains, const SearchColumns& columns, const Keys& room,
+                OrderOfPlaces& order) {
   const int n = grains.n + grains.n_ghosts;
   reserve(order.entry, "clumps: entries of places", n);
   reserve(order.grains, "clumps: in order", n);
@@ -131,7 +128,6 @@ OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& col
   const auto ordered = order.grains;
   Kokkos::parallel_for(
       "clumps: in order", items(n), KOKKOS_LAMBDA(int p) { ordered(p) = kin(entry(p)); });
-  return order;
 }
 
 int columns_of_arm(const LongestArm& arm, const SearchColumns& columns) {

@@ -25,10 +25,10 @@ struct OrderOfPlaces {
   Kokkos::View<GrainKinematics*> grains;
   Kokkos::View<int*> entry = {};  // of each place; empty: they are the same
 };
-/// Order that all ranks agree on: equal keys come in the order of the ids. `order` gives its
-/// memory; `room`: at least one for each entry.
-OrderOfPlaces order_of_places(const GrainState& grains, const SearchColumns& columns,
-                              const Kokkos::View<std::uint64_t*>& room, OrderOfPlaces order);
+/// Finds an order that all ranks agree on: equal keys come in the order of the ids. `room`: at
+/// least one for each entry.
+void find_order(const GrainState& grains, const SearchColumns& columns,
+                const Kokkos::View<std::uint64_t*>& room, OrderOfPlaces& order);
 
 /// Longest way from the centre of a clump to that of a sphere of it, and the key that says so.
 struct LongestArm {

@@ -58,10 +58,8 @@ void GrainsOnBodies::find(const GrainState& grains, std::int64_t rebuilds) {
                                       .near = marks_});
   // The list mostly has room; if not, make it larger and search once more.
   for (int tries = 0; tries < 2; ++tries) {
-    near_.n = 0;
-    Kokkos::parallel_scan("grains: list near bodies", items(grains.n),
-                          ListNearBodies{.n_bodies = bodies_.n, .near = marks_, .list = near_},
-                          near_.n);
+    near_.n = scan("grains: list near bodies", items(grains.n),
+                   ListNearBodies{.n_bodies = bodies_.n, .near = marks_, .list = near_});
     if (near_.n <= near_.grain.extent_int(0)) break;
     const int n = near_.n;
     reserve(near_.grain, "near bodies: grain", n);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "src/base/scratch_memory.hpp"
+#include "src/parallel/scan.hpp"
 
 namespace barchan {
 
@@ -45,15 +46,13 @@ void take_scratch(ScratchMemory& scratch, Kokkos::View<T*>& view, const char* la
 
 /// Turns counts in [0, n) into offsets from `begin` on, the end at n. Returns the end.
 inline int counts_to_offsets(const Kokkos::View<int*>& a, int n, int begin = 0) {
-  int total = 0;
-  Kokkos::parallel_scan(
-      "neighbors: prefix sum", n,
+  const int total = scan(
+      "neighbors: prefix sum", Kokkos::RangePolicy<>(0, n),
       KOKKOS_LAMBDA(int i, int& sum, bool final) {
         const int count = a(i);
         if (final) a(i) = begin + sum;
         sum += count;
-      },
-      total);
+      });
   Kokkos::deep_copy(Kokkos::subview(a, n), begin + total);
   return begin + total;
 }

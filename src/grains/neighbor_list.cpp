@@ -160,8 +160,7 @@ void NeighborList::sort(GrainState& grains, bool drop) {
 
 Windows NeighborList::find_windows(const Kokkos::View<GrainKinematics*>& grains, int n) {
   const NumberColumns find{.columns = columns_, .grains = grains, .occupied = occupied_};
-  occupied_.n = 0;  // a device leaves it where there is no work
-  Kokkos::parallel_scan("neighbors: occupied columns", n, find, occupied_.n);
+  occupied_.n = scan("neighbors: occupied columns", Kokkos::RangePolicy<>(0, n), find);
   reserve(occupied_.id, "occupied columns", occupied_.n);
   reserve(occupied_.start, "column starts", occupied_.n + 1);
   Kokkos::parallel_for("neighbors: column starts", n,

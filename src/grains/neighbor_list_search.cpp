@@ -36,9 +36,9 @@ void NeighborList::search(GrainState& grains) {
   const int n = grains.n + grains.n_ghosts;
   reserve_memory(n);
   const bool has_clumps = grains.clump.size() > 0;
-  const bool in_own_order = has_clumps && ranks_;
-  if (in_own_order) order_ = order_of_places(grains, columns_, key_memory_, order_);
-  const OrderOfPlaces order = in_own_order ? order_ : OrderOfPlaces{.grains = grains.kin};
+  const bool ranks_agree = has_clumps && ranks_;
+  if (ranks_agree) find_order(grains, columns_, key_memory_, order_);
+  const OrderOfPlaces order = ranks_agree ? order_ : OrderOfPlaces{.grains = grains.kin};
   const Windows window = find_windows(order.grains, n);
   PairList& list = grains.list;
   list.chunks = make_chunks(grains.n);

@@ -193,8 +193,8 @@ TEST(ClumpWindow, OfClumpsThatOverlapWhereSidesMeetOneGoes) {
   EXPECT_EQ(rows.size(), 4u);
 }
 
-/// Four spheres of a rod, 0.63 d apart, lie past the side and meet one that is farther inside than
-/// any of its spheres is wide.
+/// Half of a rod lies past the side, where it meets a rod whose spheres are farther inside than
+/// they are wide.
 TEST(ClumpWindow, OfClumpsThatOverlapFarPastASideOneGoes) {
   for (const bool along_x : {true, false}) {
     Config c = window_case(kPitch, kPitch);

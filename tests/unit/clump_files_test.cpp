@@ -3,11 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <fstream>
-#include <set>
 
-#include "kernels/grains/contact_law.hpp"
 #include "src/case/resolved.hpp"
 #include "src/coupling/state_checks.hpp"
 #include "src/initial/initial_state.hpp"

@@ -4,17 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <set>
 
 #include "kernels/grains/contact_law.hpp"
-#include "src/coupling/state_checks.hpp"
-#include "src/initial/initial_state.hpp"
-#include "src/restart/checkpoint.hpp"
-#include "src/results/output_files.hpp"
 #include "tests/support/clumps.hpp"
-#include "tests/support/config_problems.hpp"
-#include "tests/support/packing.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace barchan {
